@@ -1,0 +1,60 @@
+#include "base/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace brisance {
+
+void parallelFor(std::int64_t begin, std::int64_t end, std::int64_t grain,
+                 const std::function<void(std::int64_t, std::int64_t)>& body) {
+  if (begin >= end) return;
+  if (end - begin <= grain) return body(begin, end);
+  tbb::parallel_for(tbb::blocked_range<std::int64_t>(begin, end, grain),
+                    [&](const tbb::blocked_range<std::int64_t>& range) { body(range.begin(), range.end()); });
+}
+
+namespace {
+std::vector<double> blockValues(std::int64_t count, std::int64_t blockSize,
+                                const std::function<double(std::int64_t, std::int64_t)>& block) {
+  const std::int64_t blocks = (count + blockSize - 1) / blockSize;
+  std::vector<double> values(blocks);
+  parallelFor(0, blocks, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t b = first; b < last; ++b) values[b] = block(b * blockSize, std::min(count, (b + 1) * blockSize));
+  });
+  return values;
+}
+}  // namespace
+
+double parallelSum(std::int64_t count, std::int64_t blockSize,
+                   const std::function<double(std::int64_t, std::int64_t)>& block) {
+  double sum = 0;
+  for (const double value : blockValues(count, blockSize, block)) sum += value;
+  return sum;
+}
+
+double parallelMax(std::int64_t count, std::int64_t blockSize,
+                   const std::function<double(std::int64_t, std::int64_t)>& block) {
+  double largest = 0;
+  for (const double value : blockValues(count, blockSize, block)) largest = std::max(largest, value);
+  return largest;
+}
+
+struct ThreadLimit::Control {
+  tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(int threads) {
+  if (threads > 0)
+    control_ = std::make_unique<Control>(
+        Control{tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads))});
+}
+ThreadLimit::~ThreadLimit() = default;
+
+int threadCount() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+}  // namespace brisance
