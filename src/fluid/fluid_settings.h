@@ -1,0 +1,56 @@
+// What the gas may be told.
+#pragma once
+
+#include <array>
+#include <variant>
+
+#include "base/math.h"
+
+namespace brisance {
+
+/// Weighted sum of central and upwind differences (thesis 2.4.2; Griebel, Dornseifer & Neunhoeffer 1998, eq. 3.19).
+struct DonorCell {
+  double upwindWeight = 1.0;  ///< 0 central .. 1 upwind
+  friend bool operator==(const DonorCell&, const DonorCell&) = default;
+};
+using AdvectionScheme = std::variant<DonorCell>;
+
+/// Thesis Algorithm 1, corrected, to a residual relative to the right-hand side.
+struct ConjugateGradient {
+  double tolerance = 1e-6;
+  int maxIterations = 4000;
+  friend bool operator==(const ConjugateGradient&, const ConjugateGradient&) = default;
+};
+using PressureSolver = std::variant<ConjugateGradient>;
+
+/// open: p = 0 on the face, the gas flows through. no_slip, free_slip: a wall.
+enum class FaceKind { open, noSlip, freeSlip };
+/// Order of faces everywhere: x lower, x upper, y lower, y upper, z lower, z upper.
+using Faces = std::array<FaceKind, 6>;
+
+struct FluidSettings {
+  Vec3i cells{64, 64, 64};
+  Vec3d corner;           ///< [m] lower corner of the box
+  double cellSize = 1.0 / 64;  ///< [m]
+  Faces faces{};          ///< all open
+  bool removeMeanSource = false;  ///< all faces walled and a net source: let the mean go, instead of refusing
+
+  AdvectionScheme advection;
+  PressureSolver pressure;
+
+  double viscosity = 0;             ///< [m2/s] (1/Re of the thesis)
+  double conductivity = 0;          ///< c_k [m2/s]
+  double coolingRate = 2500;        ///< c_r [K/s] at the maximum temperature
+  double ambientTemperature = 300;  ///< T_a [K]
+  double maximumTemperature = 2675;  ///< T_max [K], the scale of the cooling term
+  double heatCapacity = 1200;       ///< rho c_p [J/(m3 K)]
+  Vec3d force;                      ///< g_x, g_y, g_z on the gas [m/s2]
+  double buoyancy = 0;              ///< upward (+y) acceleration per kelvin above ambient [m/(s2 K)]
+  double vorticityConfinement = 0;  ///< epsilon of Fedkiw, Stam & Jensen 2001, dimensionless
+  double flameLifetime = 0.15;      ///< [s] over which the flame field fades to 1/e
+  double startVelocity = 0;         ///< [m/s] deviation of the random start velocities (thesis 2.4.3)
+  double courant = 1.0;             ///< dt sum(max|u_i|)/dx stays below
+  double maxSubsteps = 2000;        ///< per frame, beyond which the run stops as unstable
+};
+
+}  // namespace brisance

@@ -1,0 +1,60 @@
+#include "fluid/padded_grid.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace brisance {
+
+namespace {
+void copyInside(PaddedGrid& padded, const Grid3<float>& source) {
+  const Vec3i size{source.size.x + 2, source.size.y + 2, source.size.z + 2};
+  if (!(padded.values.size == size))
+    padded.values = Grid3<float>(size, source.origin - Vec3d(1, 1, 1) * source.cellSize, source.cellSize);
+  parallelFor(0, source.size.z, 4, [&](std::int64_t first, std::int64_t last) {
+    for (int k = static_cast<int>(first); k < last; ++k)
+      for (int j = 0; j < source.size.y; ++j)
+        std::copy_n(source.values.data() + source.index(0, j, k), source.size.x, &padded.values(1, j + 1, k + 1));
+  });
+}
+
+/// Calls at(ghost, inner, a, b) for each sample of one face's ghost layer; (a, b) number the inner samples of the face along
+/// the two other axes, the lower axis first.
+template <class At>
+void forGhosts(Grid3<float>& padded, int face, const At& at) {
+  const int axis = face / 2, b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
+  const int layer = face % 2 ? padded.size[axis] - 1 : 0;
+  const std::int64_t inward = face % 2 ? -padded.stride(axis) : padded.stride(axis);
+  for (int q = 1; q < padded.size[c] - 1; ++q)
+    for (int p = 1; p < padded.size[b] - 1; ++p) {
+      const std::int64_t ghost = layer * padded.stride(axis) + p * padded.stride(b) + q * padded.stride(c);
+      at(padded.values[ghost], padded.values[ghost + inward], p - 1, q - 1);
+    }
+}
+}  // namespace
+
+void PaddedVelocity::fill(const MacVelocity& velocity, const Faces& faces) {
+  for (int axis = 0; axis < 3; ++axis) {
+    copyInside(component[axis], velocity.component(axis));
+    for (int face = 0; face < 6; ++face) {
+      const float factor = face / 2 != axis && faces[face] == FaceKind::noSlip ? -1.0f : 1.0f;
+      forGhosts(component[axis].values, face, [&](float& ghost, float inner, int, int) { ghost = factor * inner; });
+    }
+  }
+}
+
+void padScalar(PaddedGrid& padded, const Grid3<float>& scalar, const MacVelocity& velocity, float ambient) {
+  copyInside(padded, scalar);
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2, b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
+    const Grid3<float>& normal = velocity.component(axis);
+    const std::int64_t layer = face % 2 ? (normal.size[axis] - 1) * normal.stride(axis) : 0;
+    forGhosts(padded.values, face, [&](float& ghost, float inner, int p, int q) {
+      const float speed = normal.values[layer + p * normal.stride(b) + q * normal.stride(c)];
+      const bool comesIn = face % 2 ? speed < 0 : speed > 0;
+      ghost = comesIn ? ambient : inner;
+    });
+  }
+}
+
+}  // namespace brisance

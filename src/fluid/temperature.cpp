@@ -1,0 +1,81 @@
+#include "fluid/temperature.h"
+
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace brisance {
+
+namespace {
+/// c_k times the Laplacian, through open inner faces only: Neumann at the box (thesis 2.4.3) and at solids.
+void conduct(FluidState& gas, const FluidSettings& settings, double dt, Grid3<float>& scratch) {
+  scratch = gas.temperature;
+  const Grid3<float>& T = scratch;
+  const float share = static_cast<float>(settings.conductivity * dt / (settings.cellSize * settings.cellSize));
+  parallelFor(0, T.size.z, 2, [&](std::int64_t first, std::int64_t last) {
+    for (int k = static_cast<int>(first); k < last; ++k)
+      for (int j = 0; j < T.size.y; ++j)
+        for (int i = 0; i < T.size.x; ++i) {
+          const std::int64_t here = T.index(i, j, k);
+          const int place[3] = {i, j, k};
+          float sum = 0;
+          for (int axis = 0; axis < 3; ++axis) {
+            const Grid3<float>& open = gas.solid.openShare.component(axis);
+            const std::int64_t face = open.index(i, j, k), step = T.stride(axis);
+            if (place[axis] > 0) sum += open.values[face] * (T.values[here - step] - T.values[here]);
+            if (place[axis] + 1 < T.size[axis])
+              sum += open.values[face + open.stride(axis)] * (T.values[here + step] - T.values[here]);
+          }
+          gas.temperature.values[here] += share * sum;
+        }
+  });
+}
+
+/// Sum over cells that are not solid of a function of the cell's number.
+template <class Term>
+double cellSum(const FluidState& gas, const Term& term) {
+  const auto& solid = gas.solid.inside.values;
+  return parallelSum(static_cast<std::int64_t>(solid.size()), 4096, [&](std::int64_t first, std::int64_t last) {
+    double sum = 0;
+    for (std::int64_t n = first; n < last; ++n)
+      if (!solid[n]) sum += term(n);
+    return sum;
+  });
+}
+}  // namespace
+
+double cooled(double theta, double range, double rate, double dt) {
+  if (theta <= 0) return theta;
+  const double x = theta / range;
+  // (the C library has one cbrt for all processors, unlike exp and log)
+  // d x/dt = -(rate / range) x^4 gives 1/x^3 = 1/x0^3 + 3 (rate / range) t.
+  return theta / std::cbrt(1 + 3 * (rate / range) * x * x * x * dt);
+}
+
+Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt, Grid3<float>& scratch) {
+  if (settings.conductivity > 0) conduct(gas, settings, dt, scratch);
+  const double ambient = settings.ambientTemperature, range = settings.maximumTemperature - ambient;
+  auto& T = gas.temperature.values;
+  const double heated = cellSum(gas, [&](std::int64_t n) {
+    const float before = T[n];
+    T[n] = static_cast<float>(before + dt * gas.heatRate.values[n]);
+    return dt * gas.heatRate.values[n];
+  });
+  const double radiated = cellSum(gas, [&](std::int64_t n) {
+    const double before = T[n];
+    T[n] = static_cast<float>(ambient + cooled(before - ambient, range, settings.coolingRate, dt));
+    return before - T[n];
+  });
+  const double perKelvin = settings.heatCapacity * settings.cellSize * settings.cellSize * settings.cellSize;
+  Balance balance;
+  balance.in = heated * perKelvin;
+  balance.lost = radiated * perKelvin;
+  return balance;
+}
+
+double heatContent(const FluidState& gas, const FluidSettings& settings) {
+  const double sum = cellSum(gas, [&](std::int64_t n) { return gas.temperature.values[n] - settings.ambientTemperature; });
+  return sum * settings.heatCapacity * settings.cellSize * settings.cellSize * settings.cellSize;
+}
+
+}  // namespace brisance

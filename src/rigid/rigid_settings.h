@@ -1,0 +1,27 @@
+// What moves bodies.
+#pragma once
+
+#include <variant>
+
+#include "base/math.h"
+
+namespace brisance {
+
+/// How the force of the gas is summed over a body.
+struct AreaQuadrature {};  ///< per area of the surface: a finer mesh is pushed the same
+struct VertexSum {};       ///< the thesis' choice: per vertex, so small pieces fly faster
+using PushQuadrature = std::variant<AreaQuadrature, VertexSum>;
+
+struct GasPush {
+  double forceConstant = 1.0;  ///< F_c [kg/m3]: force per area = F_c |dv| dv
+  PushQuadrature quadrature;
+  bool parallelOnly = false;     ///< the thesis' choice: only the force along r accelerates the centre of mass
+  double smallPieceFavour = 0;  ///< force times (mean area / area)^this: the "small ones faster" look
+};
+
+struct RigidSettings {
+  Vec3d gravity{0, -9.81, 0};  ///< [m/s2]
+  GasPush push;
+};
+
+}  // namespace brisance
