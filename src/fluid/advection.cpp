@@ -144,7 +144,7 @@ double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, float 
 }  // namespace
 
 void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, AdvectionScratch& scratch) {
-  scratch.velocity.fill(gas.velocity, settings.faces);
+  scratch.velocity.fill(gas.velocity, settings.faces, settings.wind);
   if (scratch.newVelocity.u.count() != gas.velocity.u.count()) scratch.newVelocity = gas.velocity;
   for (int axis = 0; axis < 3; ++axis) advectComponent(axis, gas, settings, dt, scratch);
   std::swap(gas.velocity, scratch.newVelocity);

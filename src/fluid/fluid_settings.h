@@ -48,6 +48,7 @@ struct FluidSettings {
   double buoyancy = 0;              ///< upward (+y) acceleration per kelvin above ambient [m/(s2 K)]
   double vorticityConfinement = 0;  ///< epsilon of Fedkiw, Stam & Jensen 2001, dimensionless
   double flameLifetime = 0.15;      ///< [s] over which the flame field fades to 1/e
+  Vec3d wind;                        ///< [m/s] of the air outside and, at first, inside
   double startVelocity = 0;         ///< [m/s] deviation of the random start velocities (thesis 2.4.3)
   double courant = 1.0;             ///< dt sum(max|u_i|)/dx stays below
   double maxSubsteps = 2000;        ///< per frame, beyond which the run stops as unstable

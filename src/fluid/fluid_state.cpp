@@ -5,15 +5,15 @@
 namespace brisance {
 
 namespace {
-/// Thesis 2.4.3: small random start velocities, so that the explosion is not symmetric. Closed faces stay at rest.
-void stir(FluidState& gas, double deviation, std::uint64_t seed) {
+/// The wind, with small random velocities so that the explosion is not symmetric (thesis 2.4.3). Closed faces stay at rest.
+void stir(FluidState& gas, const Vec3d& wind, double deviation, std::uint64_t seed) {
   const Random random(seed, Stream::startVelocity);
   std::uint64_t index = 0;
   for (int axis = 0; axis < 3; ++axis) {
     auto& values = gas.velocity.component(axis).values;
     const auto& open = gas.solid.openShare.component(axis).values;
     for (std::size_t n = 0; n < values.size(); ++n)
-      values[n] = open[n] > 0 ? static_cast<float>(deviation * random.normal(index + n)) : 0.0f;
+      values[n] = open[n] > 0 ? static_cast<float>(wind[axis] + deviation * random.normal(index + n)) : 0.0f;
     index += values.size();
   }
 }
@@ -26,7 +26,7 @@ FluidState makeFluid(const FluidSettings& settings, const SolidStamp& solid, std
   gas.pressure = gas.soot = gas.flame = gas.divergence = gas.heatRate = gas.burnRate = zeros;
   gas.temperature = cellGrid(settings, static_cast<float>(settings.ambientTemperature));
   gas.solid = solid;
-  if (settings.startVelocity > 0) stir(gas, settings.startVelocity, seed);
+  if (settings.startVelocity > 0 || !(settings.wind == Vec3d{})) stir(gas, settings.wind, settings.startVelocity, seed);
   return gas;
 }
 

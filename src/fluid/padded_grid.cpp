@@ -31,14 +31,46 @@ void forGhosts(Grid3<float>& padded, int face, const At& at) {
       at(padded.values[ghost], padded.values[ghost + inward], p - 1, q - 1);
     }
 }
+
+/// Whether gas comes in through a face of the box beside a sample (p, q) of a scalar, or of the velocity component along
+/// `staggered`, which lies between two cells and takes the mean of their speeds.
+class Inflow {
+ public:
+  Inflow(const MacVelocity& velocity, int face, int staggered = -1)
+      : normal_(velocity.component(face / 2)), upper_(face % 2), b_(face / 2 == 0 ? 1 : 0), c_(face / 2 == 2 ? 1 : 2),
+        backP_(staggered == b_ ? 1 : 0), backQ_(staggered == c_ ? 1 : 0),
+        layer_(upper_ ? (normal_.size[face / 2] - 1) * normal_.stride(face / 2) : 0) {}
+  bool at(int p, int q) const {
+    const float speed = cell(p - backP_, q - backQ_) + cell(p, q);
+    return upper_ ? speed < 0 : speed > 0;
+  }
+
+ private:
+  float cell(int p, int q) const {
+    const int pp = std::clamp(p, 0, normal_.size[b_] - 1), qq = std::clamp(q, 0, normal_.size[c_] - 1);
+    return normal_.values[layer_ + pp * normal_.stride(b_) + qq * normal_.stride(c_)];
+  }
+  const Grid3<float>& normal_;
+  bool upper_;
+  int b_, c_, backP_, backQ_;
+  std::int64_t layer_;
+};
 }  // namespace
 
-void PaddedVelocity::fill(const MacVelocity& velocity, const Faces& faces) {
+void PaddedVelocity::fill(const MacVelocity& velocity, const Faces& faces, const Vec3d& wind) {
   for (int axis = 0; axis < 3; ++axis) {
     copyInside(component[axis], velocity.component(axis));
     for (int face = 0; face < 6; ++face) {
-      const float factor = face / 2 != axis && faces[face] == FaceKind::noSlip ? -1.0f : 1.0f;
-      forGhosts(component[axis].values, face, [&](float& ghost, float inner, int, int) { ghost = factor * inner; });
+      if (faces[face] == FaceKind::open) {
+        const Inflow inflow(velocity, face, axis);
+        const float outer = static_cast<float>(wind[axis]);
+        forGhosts(component[axis].values, face, [&](float& ghost, float inner, int p, int q) {
+          ghost = inflow.at(p, q) ? outer : inner;
+        });
+      } else {
+        const float factor = face / 2 != axis && faces[face] == FaceKind::noSlip ? -1.0f : 1.0f;
+        forGhosts(component[axis].values, face, [&](float& ghost, float inner, int, int) { ghost = factor * inner; });
+      }
     }
   }
 }
@@ -46,14 +78,9 @@ void PaddedVelocity::fill(const MacVelocity& velocity, const Faces& faces) {
 void padScalar(PaddedGrid& padded, const Grid3<float>& scalar, const MacVelocity& velocity, float ambient) {
   copyInside(padded, scalar);
   for (int face = 0; face < 6; ++face) {
-    const int axis = face / 2, b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
-    const Grid3<float>& normal = velocity.component(axis);
-    const std::int64_t layer = face % 2 ? (normal.size[axis] - 1) * normal.stride(axis) : 0;
-    forGhosts(padded.values, face, [&](float& ghost, float inner, int p, int q) {
-      const float speed = normal.values[layer + p * normal.stride(b) + q * normal.stride(c)];
-      const bool comesIn = face % 2 ? speed < 0 : speed > 0;
-      ghost = comesIn ? ambient : inner;
-    });
+    const Inflow inflow(velocity, face);
+    forGhosts(padded.values, face,
+              [&](float& ghost, float inner, int p, int q) { ghost = inflow.at(p, q) ? ambient : inner; });
   }
 }
 
