@@ -1,0 +1,109 @@
+#include "simulation/checkpoint.h"
+
+#include <cstring>
+
+namespace brisance {
+
+namespace {
+constexpr char magic[16] = "brisance-ckpt-1";
+
+class Writer {
+ public:
+  template <class T>
+  void value(const T& v) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+  }
+  template <class T>
+  void array(const std::vector<T>& v) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    value(static_cast<std::uint64_t>(v.size()));
+    bytes.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(T));
+  }
+  /// An array whose length the settings fix.
+  template <class T>
+  void fixedArray(const std::vector<T>& v) {
+    array(v);
+  }
+  std::string bytes;
+};
+
+class Reader {
+ public:
+  Reader(const std::string& bytes, const std::string& fileName) : bytes_(bytes), fileName_(fileName) {}
+
+  template <class T>
+  void value(T& v) {
+    std::memcpy(static_cast<void*>(&v), take(sizeof v), sizeof v);
+  }
+  template <class T>
+  void array(std::vector<T>& v) {
+    std::uint64_t count = 0;
+    value(count);
+    if (count > (bytes_.size() - at_) / sizeof(T)) refuse("ends in the middle");
+    v.resize(count);
+    if (count > 0) std::memcpy(static_cast<void*>(v.data()), take(count * sizeof(T)), count * sizeof(T));
+  }
+  template <class T>
+  void fixedArray(std::vector<T>& v) {
+    const std::size_t expected = v.size();
+    array(v);
+    if (v.size() != expected) refuse("belongs to a scene of another size");
+  }
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw DamagedFile(fmt::format("{}: checkpoint {}: start again with --overwrite", fileName_, why));
+  }
+  bool atEnd() const { return at_ == bytes_.size(); }
+
+ private:
+  const char* take(std::size_t count) {
+    if (count > bytes_.size() - at_) refuse("ends in the middle");
+    at_ += count;
+    return bytes_.data() + at_ - count;
+  }
+  const std::string& bytes_;
+  std::string fileName_;
+  std::size_t at_ = 0;
+};
+
+/// The order of fields, once for both directions. Solids are not in it: they come from the settings.
+template <class Archive, class State>
+void archive(Archive& a, State& world) {
+  a.value(world.frame);
+  a.value(world.time);
+  a.value(world.largestSource);
+  a.value(world.burning);
+  a.value(world.totals);
+  auto& gas = world.gas;
+  for (auto* grid : {&gas.velocity.u, &gas.velocity.v, &gas.velocity.w, &gas.pressure, &gas.temperature, &gas.soot, &gas.flame})
+    a.fixedArray(grid->values);
+  forEachField(world.particles, [&](auto& field) { a.array(field); });
+  a.value(world.particles.nextId);
+  a.array(world.emitted);
+  auto& bodies = world.bodies;
+  a.fixedArray(bodies.position);
+  a.fixedArray(bodies.orientation);
+  a.fixedArray(bodies.linearVelocity);
+  a.fixedArray(bodies.angularVelocity);
+}
+}  // namespace
+
+std::string writeCheckpoint(const WorldState& world) {
+  Writer writer;
+  writer.value(magic);
+  archive(writer, world);
+  return std::move(writer.bytes);
+}
+
+void readCheckpoint(const std::string& bytes, const std::string& fileName, WorldState& world) {
+  Reader reader(bytes, fileName);
+  char start[sizeof magic];
+  reader.value(start);
+  if (std::memcmp(start, magic, sizeof magic) != 0) reader.refuse("is of another version of Brisance");
+  archive(reader, world);
+  if (!reader.atEnd()) reader.refuse("has bytes left over");
+  for (std::size_t size : {world.particles.position.size(), world.particles.mass.size(), world.particles.kind.size()})
+    if (size != world.particles.size()) reader.refuse("holds particles of different counts");
+}
+
+}  // namespace brisance

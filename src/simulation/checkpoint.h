@@ -1,0 +1,12 @@
+// Everything that the next sub-step depends on, as bytes.
+#pragma once
+
+#include "simulation/world_state.h"
+
+namespace brisance {
+
+std::string writeCheckpoint(const WorldState& world);
+/// Into a world freshly made from the same settings. Throws DamagedFile when sizes or the format's version do not fit.
+void readCheckpoint(const std::string& bytes, const std::string& fileName, WorldState& world);
+
+}  // namespace brisance

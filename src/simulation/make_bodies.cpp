@@ -1,0 +1,77 @@
+#include "simulation/make_bodies.h"
+
+#include "mesh/mesh_file.h"
+#include "mesh/shapes.h"
+
+namespace brisance {
+
+namespace {
+/// Thickness of the surfaces of scenery and of broken solids [m], which have no inside.
+constexpr double surfaceThickness = 0.01;
+
+FracturedBody breakShape(const SphereShape& sphere, const FractureSettings& fracture, std::uint64_t) {
+  return fractureMesh(sphereMesh(sphere.radius), fracture, surfaceThickness);
+}
+FracturedBody breakShape(const BoxShape& box, const FractureSettings& fracture, std::uint64_t) {
+  return fractureMesh(boxMesh(box.size, true, box.uvRepeat), fracture, surfaceThickness);
+}
+FracturedBody breakShape(const RectangleShape& r, const FractureSettings& fracture, std::uint64_t) {
+  return fractureMesh(rectangleMesh(r.width, r.height, r.uvRepeat), fracture, surfaceThickness);
+}
+FracturedBody breakShape(const MeshShape& shape, const FractureSettings& fracture, std::uint64_t) {
+  TriangleMesh mesh = readObj(shape.file);
+  for (Vec3d& v : mesh.vertices) v *= shape.scale;
+  return fractureMesh(mesh, fracture, shape.shellThickness);
+}
+FracturedBody breakShape(const PaneSettings& pane, const FractureSettings& fracture, std::uint64_t seed) {
+  return fracturePane(pane, fracture, seed);
+}
+
+double massOf(const Piece& piece, const MassRule& rule, double wholeVolume) {
+  struct Rule {
+    const Piece& piece;
+    double wholeVolume;
+    double operator()(const MassFromDensity& m) const { return m.density * piece.properties.volume; }
+    double operator()(const MassGiven& m) const { return m.mass * piece.properties.volume / wholeVolume; }
+    double operator()(const MassPerArea& m) const { return m.perArea * piece.properties.area; }
+  };
+  return std::visit(Rule{piece, wholeVolume}, rule);
+}
+
+void addPiece(const BodySettings& settings, const Piece& piece, const std::string& name, double mass, WorldState& world) {
+  RigidBodies& bodies = world.bodies;
+  const bool moves = settings.moves;
+  if (moves && !(mass > 0))
+    throw InputError(fmt::format("bodies.{}: piece {} has no mass: give it a density, a mass or a closed mesh", settings.name, name));
+  bodies.name.push_back(name);
+  bodies.position.push_back(settings.pose * piece.place);
+  bodies.orientation.push_back(settings.pose.orientation);
+  bodies.linearVelocity.emplace_back();
+  bodies.angularVelocity.emplace_back();
+  bodies.inverseMass.push_back(moves ? 1 / mass : 0);
+  bodies.inertia.push_back(moves ? piece.properties.inertia * (mass / piece.properties.volume) : Mat3{});
+  bodies.mesh.push_back(std::make_shared<const TriangleMesh>(piece.mesh));
+  bodies.area.push_back(piece.properties.area);
+  bodies.releaseTime.push_back(settings.releaseTime);
+  world.looks.push_back({settings.material, settings.temperature, moves});
+}
+}  // namespace
+
+std::vector<MovingSolid> makeBodies(const SimulationSettings& settings, WorldState& world) {
+  std::vector<MovingSolid> solids;
+  for (const BodySettings& body : settings.bodies) {
+    const FracturedBody broken =
+        std::visit([&](const auto& shape) { return breakShape(shape, body.fracture, settings.seed); }, body.shape);
+    double volume = 0;
+    for (const Piece& piece : broken.pieces) volume += piece.properties.volume;
+    for (std::size_t n = 0; n < broken.pieces.size(); ++n) {
+      const std::string name = broken.pieces.size() == 1 ? body.name : fmt::format("{}.{:03}", body.name, n + 1);
+      addPiece(body, broken.pieces[n], name, massOf(broken.pieces[n], body.mass, volume), world);
+      if (body.blocksGas)
+        solids.push_back({world.bodies.mesh.back(), {world.bodies.position.back(), world.bodies.orientation.back()}, {}, {}});
+    }
+  }
+  return solids;
+}
+
+}  // namespace brisance

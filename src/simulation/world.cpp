@@ -1,0 +1,122 @@
+#include "simulation/world.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "particles/burning.h"
+#include "rigid/gas_push.h"
+#include "rigid/rigid_step.h"
+#include "fluid/solid_fractions.h"
+#include "simulation/capture.h"
+#include "simulation/checkpoint.h"
+#include "simulation/coupling.h"
+#include "simulation/make_bodies.h"
+#include "simulation/world_state.h"
+
+namespace brisance {
+
+namespace {
+/// Adds the seconds that `work` takes to a stage of the report.
+template <class Work>
+void timed(StepReport& report, const char* stage, const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  report.stageSeconds[stage] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void record(const FluidReport& step, StepReport& report) {
+  ++report.substeps;
+  report.courant = std::max(report.courant, step.courant);
+  report.divergence = std::max(report.divergence, step.divergence);
+  report.pressure.iterations += step.pressure.iterations;
+  report.pressure.residual = std::max(report.pressure.residual, step.pressure.residual);
+  report.pressure.converged = report.pressure.converged && step.pressure.converged;
+  report.volume += step.volume;
+  report.heat += step.heat;
+}
+
+/// burn; stepFluid; stepParticles; pushBodies; stepBodies.
+void substep(WorldState& world, const SimulationSettings& s, double dt) {
+  StepReport& report = world.report;
+  timed(report, "burn", [&] { burnIntoGas(world, s, dt); });
+  timed(report, "gas",
+        [&] { record(stepFluid(world.gas, s.fluid, s.particles.burning.sootPerMass, dt, world.scratch), report); });
+  timed(report, "particles", [&] { carryParticles(world, s, dt); });
+  timed(report, "bodies", [&] {
+    pushBodies(world.bodies, world.gas.velocity, s.rigid.push, world.time, dt);
+    stepBodies(world.bodies, s.rigid, world.time, dt);
+  });
+  world.time += dt;
+  emitFuel(world.particles, s.particles, world.time, s.fluid.ambientTemperature, s.seed, world.emitted);
+}
+
+void refuseBrokenState(const WorldState& world, const SimulationSettings& settings) {
+  const std::string place = findNotFinite(world.gas);
+  if (!place.empty())
+    throw Error(ExitCode::unstable, fmt::format("frame {}, time {:.4g} s: {} is not a finite number: lower gas.courant or the "
+                                                "explosion's heat and gas",
+                                                world.frame + 1, world.time, place));
+  if (!world.report.pressure.converged)
+    throw Error(ExitCode::unstable,
+                fmt::format("frame {}, time {:.4g} s: pressure reached a residual of {:.2g} only: raise "
+                            "gas.pressure.max_iterations or gas.pressure.tolerance",
+                            world.frame + 1, world.time, world.report.pressure.residual));
+  if (world.report.substeps >= settings.fluid.maxSubsteps)
+    throw Error(ExitCode::unstable, fmt::format("frame {}, time {:.4g} s: {} sub-steps were not enough: gas is too fast; raise "
+                                                "gas.max_substeps or lower the explosion's heat and gas",
+                                                world.frame + 1, world.time, world.report.substeps));
+}
+
+void addToTotals(const StepReport& report, RunTotals& totals) {
+  totals.volume += report.volume;
+  totals.heat += report.heat;
+  totals.courant = std::max(totals.courant, report.courant);
+  totals.divergence = std::max(totals.divergence, report.divergence);
+  totals.substeps += report.substeps;
+}
+}  // namespace
+
+World::World(SimulationSettings settings) : settings_(std::move(settings)), state_(std::make_unique<WorldState>()) {
+  const std::vector<MovingSolid> solids = makeBodies(settings_, *state_);
+  state_->gas = makeFluid(settings_.fluid, stampSolids(settings_.fluid, solids), settings_.seed);
+  emitFuel(state_->particles, settings_.particles, 0, settings_.fluid.ambientTemperature, settings_.seed, state_->emitted);
+}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+
+void World::advance() {
+  WorldState& world = *state_;
+  world.report = {};
+  const double start = settings_.frameTime * (world.frame - 1), end = settings_.frameTime * world.frame;
+  world.time = start;
+  const double sliver = 1e-9 * settings_.frameTime;
+  while (world.time < end - sliver) {
+    const double longest = longestStep(world.gas, settings_.fluid, expectedSource(world, settings_));
+    const double left = end - world.time;
+    substep(world, settings_, left / std::ceil(left / std::min(longest, left)));
+    refuseBrokenState(world, settings_);
+  }
+  world.time = end;
+  ++world.frame;
+  addToTotals(world.report, world.totals);
+}
+
+Frame World::capture() const { return captureFrame(*state_, settings_); }
+int World::frameIndex() const { return state_->frame; }
+const RunTotals& World::totals() const { return state_->totals; }
+std::string World::checkpoint() const { return writeCheckpoint(*state_); }
+void World::restore(const std::string& bytes, const std::string& fileName) { readCheckpoint(bytes, fileName, *state_); }
+
+std::int64_t predictedParticles(const SimulationSettings& settings) {
+  double count = 0;
+  const BurnSettings& b = settings.particles.burning;
+  const double end = settings.frames * settings.frameTime;
+  for (const Charge& charge : settings.particles.charges) {
+    if (charge.time > end) continue;
+    count += charge.particles + charge.emissionRate * std::min(charge.emissionTime, end - charge.time);
+  }
+  const double sootPerFuel = b.sootOnce ? 1 : std::floor(b.mass * b.sootPerMass / b.sootThreshold);
+  return static_cast<std::int64_t>(count * (1 + sootPerFuel));
+}
+
+}  // namespace brisance

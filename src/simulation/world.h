@@ -1,0 +1,44 @@
+// The world: every solver's state, and how a frame of it is made.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "frame/frame.h"
+#include "simulation/simulation_settings.h"
+
+namespace brisance {
+
+/// All solvers' state at a moment (defined in world_state.h).
+struct WorldState;
+struct RunTotals;
+
+class World {
+ public:
+  /// Fractures the bodies, stamps the scenery into the gas, lays out the first particles. Throws InputError / DamagedFile.
+  explicit World(SimulationSettings settings);
+  ~World();
+  World(World&&) noexcept;
+
+  /// One frame of film: sub-steps of the strictest limit. Throws Error(unstable) when a value leaves its range.
+  void advance();
+  /// The moment now; frame 1 is the start.
+  Frame capture() const;
+  int frameIndex() const;
+  const RunTotals& totals() const;
+
+  /// Everything that `advance` depends on, as bytes; settings are not in it.
+  std::string checkpoint() const;
+  /// Throws DamagedFile when the bytes are no checkpoint of these settings.
+  void restore(const std::string& bytes, const std::string& fileName);
+
+ private:
+  SimulationSettings settings_;
+  std::unique_ptr<WorldState> state_;
+};
+
+/// Fuel and soot particles that a whole run may make, without running it.
+std::int64_t predictedParticles(const SimulationSettings& settings);
+
+}  // namespace brisance

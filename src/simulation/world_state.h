@@ -1,0 +1,40 @@
+// All solvers' state at a moment.
+#pragma once
+
+#include "fluid/fluid_step.h"
+#include "particles/particle_set.h"
+#include "rigid/rigid_bodies.h"
+#include "simulation/world.h"
+
+namespace brisance {
+
+/// A body as the picture knows it; what moves is in RigidBodies under the same number.
+struct BodyLook {
+  std::string material;
+  double temperature = 0;  ///< [K]
+  bool moves = true;
+};
+
+/// Sums over the whole run.
+struct RunTotals {
+  Balance volume, heat;
+  double courant = 0, divergence = 0;
+  std::int64_t substeps = 0;
+};
+
+struct WorldState {
+  int frame = 1;
+  double time = 0;           ///< [s]
+  double largestSource = 0;  ///< phi [1/s] of the last sub-step
+  std::uint64_t burning = 0;  ///< particles in that sub-step
+  FluidState gas;
+  ParticleSet particles;
+  std::vector<std::uint64_t> emitted;  ///< per charge
+  RigidBodies bodies;
+  std::vector<BodyLook> looks;
+  RunTotals totals;
+  StepReport report;  ///< of the last frame
+  FluidScratch scratch;
+};
+
+}  // namespace brisance

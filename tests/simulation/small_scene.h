@@ -1,0 +1,47 @@
+// A small explosion behind a pane in a wall.
+#pragma once
+
+#include "simulation/simulation_settings.h"
+
+namespace brisance::test {
+
+inline BodySettings wallPart(const std::string& name, const Vec3d& lower, const Vec3d& upper) {
+  BodySettings wall;
+  wall.name = name;
+  wall.shape = BoxShape{upper - lower};
+  wall.pose.position = (lower + upper) * 0.5;
+  wall.moves = false;
+  wall.blocksGas = true;
+  return wall;
+}
+
+inline SimulationSettings smallScene() {
+  SimulationSettings s;
+  s.frames = 8;
+  s.fluid.cells = {14, 14, 14};
+  s.fluid.cellSize = 1.0 / 14;
+  s.fluid.startVelocity = 1e-3;
+  s.fluid.buoyancy = 0.01;
+  s.fluid.vorticityConfinement = 0.5;
+  s.particles.burning.heating = 75000;
+  s.particles.burning.depositRadius = 0.08;
+  s.particles.charges = {{{.5, .5, .35}, .1, 0, 300, 150, 1200, .1}, {{.4, .6, .3}, .05, .15, 50, 50, 0, 0}};
+  s.rigid.push.forceConstant = 300;
+  s.bodies = {wallPart("left", {-.2, -.2, .6}, {.35, 1.2, .7}), wallPart("right", {.65, -.2, .6}, {1.2, 1.2, .7}),
+              wallPart("below", {.35, -.2, .6}, {.65, .3, .7}), wallPart("above", {.35, .7, .6}, {.65, 1.2, .7})};
+  BodySettings pane;
+  pane.name = "pane";
+  PaneSettings glass;
+  glass.width = .3;
+  glass.height = .4;
+  glass.thickness = .005;
+  glass.points = 60;
+  pane.shape = glass;
+  pane.fracture.pieces = 6;
+  pane.pose.position = {.5, .5, .65};
+  pane.material = "glass";
+  s.bodies.push_back(pane);
+  return s;
+}
+
+}  // namespace brisance::test

@@ -1,0 +1,148 @@
+#include "simulation/world.h"
+
+#include <gtest/gtest.h>
+
+#include "base/check.h"
+#include "base/parallel.h"
+#include "base/vector_path.h"
+#include "mesh/mass_properties.h"
+#include "simulation/small_scene.h"
+#include "simulation/world_state.h"
+
+namespace brisance {
+namespace {
+using namespace test;
+
+World worldAt(const SimulationSettings& settings, int frame) {
+  World world(settings);
+  while (world.frameIndex() < frame) world.advance();
+  return world;
+}
+
+void expectSame(const Frame& a, const Frame& b) {
+  EXPECT_EQ(a.gas, b.gas);
+  EXPECT_EQ(a.particles, b.particles);
+  ASSERT_EQ(a.bodies.size(), b.bodies.size());
+  for (std::size_t n = 0; n < a.bodies.size(); ++n) {
+    EXPECT_EQ(a.bodies[n].pose, b.bodies[n].pose);
+    EXPECT_EQ(a.bodies[n].linearVelocity, b.bodies[n].linearVelocity);
+    EXPECT_EQ(a.bodies[n].angularVelocity, b.bodies[n].angularVelocity);
+  }
+}
+
+TEST(World, TheFirstFrameShowsThePaneWholeAndAtRest) {
+  const Frame frame = World(smallScene()).capture();
+  EXPECT_EQ(frame.index, 1);
+  double volume = 0;
+  Box3 around;
+  int pieces = 0;
+  for (const FrameBody& body : frame.bodies) {
+    if (!body.moves) continue;
+    ++pieces;
+    EXPECT_EQ(body.linearVelocity, Vec3d());
+    volume += solidProperties(*body.mesh).volume;
+    for (const Vec3d& v : body.mesh->vertices) around.include(body.pose * v);
+  }
+  EXPECT_EQ(pieces, 6);
+  EXPECT_NEAR(volume, .3 * .4 * .005, 1e-9);
+  EXPECT_LT(length(around.size() - Vec3d(.3, .4, .005)), 1e-9);
+  EXPECT_LT(length((around.lower + around.upper) * .5 - Vec3d(.5, .5, .65)), 1e-9);
+}
+
+TEST(World, TheExplosionDrivesThePiecesOutOfTheWindow) {
+  const Frame frame = worldAt(smallScene(), 8).capture();
+  for (const FrameBody& body : frame.bodies) {
+    if (body.moves) {
+      EXPECT_GT(body.linearVelocity.z, 0.1) << body.name;
+    } else {
+      EXPECT_EQ(body.linearVelocity, Vec3d());
+    }
+  }
+}
+
+TEST(World, ItsBalancesClose) {
+  const World world = worldAt(smallScene(), 8);
+  const RunTotals& totals = world.totals();
+  EXPECT_GT(totals.volume.in, 0);
+  EXPECT_LT(totals.volume.error(), 1e-3);
+  EXPECT_GT(totals.heat.in, 0);
+  EXPECT_LT(totals.heat.error(), 1e-3);
+  EXPECT_LE(totals.courant, 1 + 1e-9);
+}
+
+TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
+  const SimulationSettings settings = smallScene();
+  const Frame undisturbed = worldAt(settings, 8).capture();
+  for (const int stop : {2, 4, 7}) {
+    const std::string bytes = worldAt(settings, stop).checkpoint();
+    World world(settings);
+    world.restore(bytes, "test");
+    EXPECT_EQ(world.frameIndex(), stop);
+    while (world.frameIndex() < 8) world.advance();
+    expectSame(world.capture(), undisturbed);
+  }
+}
+
+TEST(World, AnyThreadsAndVectorWidthGiveTheSameBits) {
+  const SimulationSettings settings = smallScene();
+  std::vector<Frame> frames;
+  for (const int threads : {1, 2, 3})
+    for (const VectorPath path : {VectorPath::plain, VectorPath::avx512}) {
+      const ThreadLimit limit(threads);
+      forceVectorPath(path);
+      frames.push_back(worldAt(settings, 6).capture());
+    }
+  for (const Frame& frame : frames) expectSame(frame, frames[0]);
+}
+
+TEST(World, AnotherSeedGivesAnotherExplosion) {
+  SimulationSettings settings = smallScene();
+  const Frame first = worldAt(settings, 3).capture();
+  settings.seed = 2;
+  EXPECT_FALSE(worldAt(settings, 3).capture().particles == first.particles);
+}
+
+TEST(World, PiecesRestUntilTheyAreReleased) {
+  SimulationSettings settings = smallScene();
+  settings.bodies.back().releaseTime = 4.5 * settings.frameTime;
+  const Frame held = worldAt(settings, 5).capture(), free = worldAt(settings, 8).capture();
+  for (const FrameBody& body : held.bodies) EXPECT_EQ(body.linearVelocity, Vec3d()) << body.name;
+  EXPECT_GT(free.bodies.back().linearVelocity.z, 0);
+}
+
+TEST(World, ACheckpointThatLiesIsRefused) {
+  World world(smallScene());
+  const std::string bytes = world.checkpoint();
+  SimulationSettings other = smallScene();
+  other.fluid.cells = {12, 14, 14};
+  World smaller(other);
+  EXPECT_THROW(smaller.restore(bytes, "test"), DamagedFile);
+  for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{100}, bytes.size() - 1})
+    EXPECT_THROW(world.restore(bytes.substr(0, size), "test"), DamagedFile) << size;
+  EXPECT_THROW(world.restore("x" + bytes, "test"), DamagedFile);
+  EXPECT_THROW(world.restore(bytes + "x", "test"), DamagedFile);
+}
+
+TEST(World, ParticlesStayBelowThePrediction) {
+  const SimulationSettings settings = smallScene();
+  const Frame frame = worldAt(settings, 8).capture();
+  EXPECT_GT(frame.particles.kind.size(), 300u);
+  EXPECT_LE(static_cast<std::int64_t>(frame.particles.kind.size()), predictedParticles(settings));
+}
+
+TEST(World, GasThatIsTooFastStopsTheRunWithOneLine) {
+  SimulationSettings settings = smallScene();
+  settings.particles.burning.gasPerMass = 1e6;
+  settings.fluid.maxSubsteps = 20;
+  World world(settings);
+  try {
+    while (world.frameIndex() < 8) world.advance();
+    FAIL() << "ran";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::unstable);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace brisance
