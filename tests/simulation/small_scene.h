@@ -17,7 +17,7 @@ inline BodySettings wallPart(const std::string& name, const Vec3d& lower, const 
 
 inline SimulationSettings smallScene() {
   SimulationSettings s;
-  s.frames = 8;
+  s.frames = 12;
   s.fluid.cells = {14, 14, 14};
   s.fluid.cellSize = 1.0 / 14;
   s.fluid.startVelocity = 1e-3;
