@@ -1,0 +1,49 @@
+// A body is broken before time starts.
+#pragma once
+
+#include <variant>
+
+#include "fracture/breadth_first.h"
+#include "mesh/mass_properties.h"
+#include "mesh/triangulation.h"
+
+namespace brisance {
+
+struct BreadthFirst {};  ///< the connected, any-m variant of thesis Algorithm 5
+using FractureMethod = std::variant<BreadthFirst>;
+
+struct FractureSettings {
+  FractureMethod method;
+  int pieces = 1;  ///< 1: left whole
+};
+
+/// Where two pieces touch.
+struct Bond {
+  int a = 0, b = 0;
+  double area = 0;  ///< [m2]
+  Vec3d normal;     ///< from a to b
+};
+
+struct Piece {
+  TriangleMesh mesh;  ///< about its own centroid; closed where the body was made solid
+  MassProperties properties;
+  Vec3d place;  ///< of the centroid in the body's coordinates [m]
+};
+
+struct FracturedBody {
+  std::vector<Piece> pieces;
+  std::vector<Bond> bonds;
+};
+
+/// A flat pane of glass (thesis 3.3): points, triangles, pieces, each extruded. In the x-y plane, centred on the origin.
+struct PaneSettings {
+  double width = 1, height = 1, thickness = 0.005;  ///< [m]
+  int points = 200;                                 ///< inside the rectangle
+  Triangulation triangulation = Trisection{};
+};
+FracturedBody fracturePane(const PaneSettings& pane, const FractureSettings& fracture, std::uint64_t seed);
+
+/// A mesh cut along its own triangles: pieces of a closed mesh are open shells (thesis 4.2), whole if pieces = 1.
+FracturedBody fractureMesh(const TriangleMesh& mesh, const FractureSettings& fracture, double shellThickness);
+
+}  // namespace brisance

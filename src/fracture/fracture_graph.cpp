@@ -1,0 +1,26 @@
+#include "fracture/fracture_graph.h"
+
+#include "mesh/mesh_topology.h"
+
+namespace brisance {
+
+FractureGraph triangleGraph(const std::vector<Triangle>& triangles, std::size_t vertexCount) {
+  FractureGraph graph;
+  graph.first.push_back(0);
+  const std::vector<Triangle> neighbours = edgeNeighbours(triangles, vertexCount);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    // Two triangles may share two edges, and a folded one touch itself: an edge of the graph is there once, between two
+    // nodes.
+    Triangle row = neighbours[t];
+    std::sort(row.begin(), row.end());
+    const auto end = std::unique(row.begin(), row.end());
+    for (auto next = row.begin(); next != end; ++next)
+      if (*next != noTriangle && *next != t) graph.targets.push_back(*next);
+    graph.first.push_back(static_cast<std::uint32_t>(graph.targets.size()));
+  }
+  return graph;
+}
+
+FractureGraph triangleGraph(const TriangleMesh& mesh) { return triangleGraph(mesh.triangles, mesh.vertices.size()); }
+
+}  // namespace brisance

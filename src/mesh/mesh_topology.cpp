@@ -1,0 +1,134 @@
+#include "mesh/mesh_topology.h"
+
+#include <numeric>
+#include <span>
+#include <tuple>
+
+#include "base/check.h"
+
+namespace brisance {
+namespace {
+
+/// One triangle's use of an edge: slot = 3 triangle + edge.
+struct EdgeUse {
+  std::uint32_t high = 0;  ///< the greater of the edge's vertices
+  std::uint32_t slot = 0;
+  bool rising = false;  ///< goes from the lesser vertex to the greater
+};
+
+EdgeUse edgeUse(const std::vector<Triangle>& triangles, std::uint32_t slot) {
+  const Triangle& t = triangles[slot / 3];
+  const std::uint32_t a = t[slot % 3], b = t[(slot + 1) % 3];
+  return {std::max(a, b), slot, a < b};
+}
+
+std::uint32_t lowVertex(const std::vector<Triangle>& triangles, std::uint32_t slot) {
+  const Triangle& t = triangles[slot / 3];
+  return std::min(t[slot % 3], t[(slot + 1) % 3]);
+}
+
+/// All uses of edges, in rows by the lesser vertex: a counting sort, so linear in the number of triangles.
+struct EdgeRows {
+  std::vector<std::size_t> first;
+  std::vector<EdgeUse> uses;
+};
+
+EdgeRows edgeRows(const std::vector<Triangle>& triangles, std::size_t vertexCount) {
+  const auto slots = static_cast<std::uint32_t>(3 * triangles.size());
+  EdgeRows rows{std::vector<std::size_t>(vertexCount + 1, 0), std::vector<EdgeUse>(slots)};
+  for (std::uint32_t slot = 0; slot < slots; ++slot) {
+    const std::uint32_t vertex = triangles[slot / 3][slot % 3];
+    CHECK(vertex < vertexCount, "triangle {} names vertex {} of {}", slot / 3, vertex, vertexCount);
+    ++rows.first[lowVertex(triangles, slot) + 1];
+  }
+  for (std::size_t v = 0; v < vertexCount; ++v) rows.first[v + 1] += rows.first[v];
+  std::vector<std::size_t> next(rows.first.begin(), rows.first.end() - 1);
+  for (std::uint32_t slot = 0; slot < slots; ++slot)
+    rows.uses[next[lowVertex(triangles, slot)]++] = edgeUse(triangles, slot);
+  return rows;
+}
+
+/// Calls visit(low vertex, uses of one edge in order of slots) for every edge.
+template <class Visit>
+void forEachEdge(const std::vector<Triangle>& triangles, std::size_t vertexCount, const Visit& visit) {
+  EdgeRows rows = edgeRows(triangles, vertexCount);
+  for (std::size_t v = 0; v < vertexCount; ++v) {
+    const auto begin = rows.uses.begin() + static_cast<std::ptrdiff_t>(rows.first[v]);
+    const auto end = rows.uses.begin() + static_cast<std::ptrdiff_t>(rows.first[v + 1]);
+    std::sort(begin, end,
+              [](const EdgeUse& a, const EdgeUse& b) { return a.high != b.high ? a.high < b.high : a.slot < b.slot; });
+    for (auto group = begin; group != end;) {
+      const auto next = std::find_if(group, end, [&](const EdgeUse& use) { return use.high != group->high; });
+      visit(static_cast<std::uint32_t>(v), std::span<const EdgeUse>(group, next));
+      group = next;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Triangle> edgeNeighbours(const std::vector<Triangle>& triangles, std::size_t vertexCount) {
+  std::vector<Triangle> neighbours(triangles.size(), Triangle{noTriangle, noTriangle, noTriangle});
+  forEachEdge(triangles, vertexCount, [&](std::uint32_t low, std::span<const EdgeUse> uses) {
+    if (uses[0].high == low) return;  // an edge from a vertex to itself joins nothing
+    for (std::size_t i = 0; i + 1 < uses.size(); i += 2) {
+      const std::uint32_t a = uses[i].slot, b = uses[i + 1].slot;
+      neighbours[a / 3][a % 3] = b / 3;
+      neighbours[b / 3][b % 3] = a / 3;
+    }
+  });
+  return neighbours;
+}
+
+std::vector<Triangle> edgeNeighbours(const TriangleMesh& mesh) {
+  return edgeNeighbours(mesh.triangles, mesh.vertices.size());
+}
+
+bool isClosed(const TriangleMesh& mesh) {
+  bool closed = !mesh.triangles.empty();
+  forEachEdge(mesh.triangles, mesh.vertices.size(), [&](std::uint32_t low, std::span<const EdgeUse> uses) {
+    closed = closed && uses[0].high != low && uses.size() == 2 && uses[0].rising != uses[1].rising;
+  });
+  return closed;
+}
+
+TriangleMesh welded(const TriangleMesh& mesh) {
+  TriangleMesh result{mesh.vertices, mesh.triangles, {}, {}, {}, {}};
+  std::vector<std::uint32_t> order(mesh.vertices.size()), first(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t v) {
+    return std::tie(mesh.vertices[v].x, mesh.vertices[v].y, mesh.vertices[v].z);
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? first[order[i - 1]] : order[i];
+  for (Triangle& t : result.triangles)
+    for (std::uint32_t& v : t) v = first[v];
+  return result;
+}
+
+int componentCount(const TriangleMesh& mesh) {
+  const std::vector<Triangle> neighbours = edgeNeighbours(mesh);
+  std::vector<bool> seen(mesh.triangles.size(), false);
+  std::vector<std::uint32_t> open;
+  int count = 0;
+  for (std::uint32_t start = 0; start < mesh.triangles.size(); ++start) {
+    if (seen[start]) continue;
+    ++count;
+    seen[start] = true;
+    open.push_back(start);
+    while (!open.empty()) {
+      const std::uint32_t triangle = open.back();
+      open.pop_back();
+      for (const std::uint32_t next : neighbours[triangle]) {
+        if (next == noTriangle || seen[next]) continue;
+        seen[next] = true;
+        open.push_back(next);
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace brisance

@@ -1,0 +1,23 @@
+// Which triangles touch.
+#pragma once
+
+#include "mesh/triangle_mesh.h"
+
+namespace brisance {
+
+constexpr std::uint32_t noTriangle = 0xFFFFFFFFu;
+
+/// Per triangle, the neighbour across each edge (edge e joins corners e and e + 1), noTriangle at a border. An edge of
+/// more than two triangles pairs them in order of their numbers.
+std::vector<Triangle> edgeNeighbours(const TriangleMesh& mesh);
+std::vector<Triangle> edgeNeighbours(const std::vector<Triangle>& triangles, std::size_t vertexCount);
+
+/// Every edge is used exactly once in each direction; a mesh of no triangles bounds nothing.
+bool isClosed(const TriangleMesh& mesh);
+/// The bare surface: vertices at exactly the same place, doubled for their normals or uvs, are one again. Triangles
+/// keep their numbers; the vertices that no longer serve stay in the list.
+TriangleMesh welded(const TriangleMesh& mesh);
+/// Number of parts connected across edges.
+int componentCount(const TriangleMesh& mesh);
+
+}  // namespace brisance
