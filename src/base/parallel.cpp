@@ -43,13 +43,12 @@ double parallelMax(std::int64_t count, std::int64_t blockSize,
 }
 
 struct ThreadLimit::Control {
-  tbb::global_control control;
+  explicit Control(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
+  tbb::global_control control;  // must not be copied: a copy's end would end the limit
 };
 
 ThreadLimit::ThreadLimit(int threads) {
-  if (threads > 0)
-    control_ = std::make_unique<Control>(
-        Control{tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads))});
+  if (threads > 0) control_ = std::make_unique<Control>(static_cast<std::size_t>(threads));
 }
 ThreadLimit::~ThreadLimit() = default;
 

@@ -56,7 +56,7 @@ void stepParticles(ParticleSet& p, const GasAround& gas, const BurnSettings& set
   std::vector<std::uint8_t> gone(p.size());
   const double r2 = settings.radius * settings.radius;
   const bool heats = settings.thermalMass >= settings.thermalMassThreshold;
-  const double kept = heats ? portableExp(-dt * settings.heating * r2 / settings.thermalMass) : 1;
+  const double kept = heats ? portableExp(-dt * settings.heating * r2 / settings.thermalMass) : 0;  // of the difference
   parallelFor(0, static_cast<std::int64_t>(p.size()), 512, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t n = first; n < last; ++n) {
       const double threshold =

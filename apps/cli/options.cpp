@@ -1,0 +1,193 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+
+#include "base/check.h"
+
+namespace brisance {
+
+namespace {
+
+/// A whole number from 1 at the start of `text`, taken off it.
+std::optional<int> takeNumber(std::string_view& text) {
+  int value = 0;
+  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (trouble != std::errc() || value < 1) return std::nullopt;
+  text.remove_prefix(end - text.data());
+  return value;
+}
+
+bool take(std::string_view& text, char letter) {
+  if (!text.starts_with(letter)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+/// What CLI11 writes into while it reads.
+struct RawOptions {
+  Options options;
+  std::string frames, size;
+  int samples = 0;
+  bool overwrite = false, resume = false;
+};
+
+CLI::App* addCommand(CLI::App& app, RawOptions& raw, const std::string& name, const std::string& what) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->callback([&raw, name] { raw.options.command = name; });
+  command->add_flag("--json", raw.options.json, "one JSON object on standard output, and nothing else there");
+  command->add_flag("--quiet", raw.options.quiet, "no progress");
+  return command;
+}
+
+void addPath(CLI::App* command, RawOptions& raw, const std::string& name, const std::string& what) {
+  command->add_option(name, raw.options.path, what)->required()->option_text(" ");
+}
+
+void addWorkOptions(CLI::App* command, RawOptions& raw) {
+  command->add_option("--threads", raw.options.threads, "how many threads; 0: one per core")
+      ->check(CLI::Range(0, 4096))
+      ->option_text("N");
+  command
+      ->add_option("--set", raw.options.overrides,
+                   "any key of the scene: --set explosion.burn_rate=0.3; may be repeated")
+      ->option_text("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void addRunOptions(CLI::App* command, RawOptions& raw) {
+  CLI::Option* overwrite = command->add_flag("--overwrite", raw.overwrite, "remove the run that is there");
+  CLI::Option* resume = command->add_flag("--resume", raw.resume, "continue the run that is there, or start it");
+  overwrite->excludes(resume);
+}
+
+void addFrames(CLI::App* command, RawOptions& raw, const std::string& shape, const std::string& what) {
+  command->add_option("--frames", raw.frames, what)->option_text(shape);
+}
+
+void addPictureOptions(CLI::App* command, RawOptions& raw) {
+  command->add_option("--size", raw.size, "of the pictures, instead of the scene's")->option_text("WxH");
+  command->add_option("--samples", raw.samples, "N x N rays for a pixel, instead of the scene's")
+      ->check(CLI::PositiveNumber)
+      ->option_text("N");
+  command->add_flag("--skip-existing", raw.options.skipExisting, "leave pictures that are whole as they are");
+}
+
+void addSceneCommands(CLI::App& app, RawOptions& raw) {
+  CLI::App* run = addCommand(app, raw, "run", "simulate, render and encode a scene: the film, in one go");
+  addPath(run, raw, "SCENE", "the scene file");
+  run->add_option("-o,--output", raw.options.output, "the run directory; runs/SCENE by default")->option_text("RUN");
+  addFrames(run, raw, "A-B[:S]", "simulate to B, pictures of these; a film only of 1-B");
+  addPictureOptions(run, raw);
+  addWorkOptions(run, raw);
+  addRunOptions(run, raw);
+
+  CLI::App* check = addCommand(app, raw, "check", "read and check a scene; print the cost ahead");
+  addPath(check, raw, "SCENE", "the scene file");
+  check->add_option("-o,--output", raw.options.output, "where the run would be made")->option_text("RUN");
+  addWorkOptions(check, raw);
+
+  CLI::App* simulate = addCommand(app, raw, "simulate", "bodies, gas and particles over time, without pictures");
+  addPath(simulate, raw, "SCENE", "the scene file");
+  simulate->add_option("-o,--output", raw.options.output, "the run directory")->required()->option_text("RUN");
+  addFrames(simulate, raw, "1-B", "up to this frame");
+  addWorkOptions(simulate, raw);
+  addRunOptions(simulate, raw);
+}
+
+void addPictureCommands(CLI::App& app, RawOptions& raw) {
+  CLI::App* render = addCommand(app, raw, "render", "pictures of a run: any frames, in any order");
+  addPath(render, raw, "RUN", "the run directory");
+  addFrames(render, raw, "A-B[:S]", "only these frames, from 1");
+  addPictureOptions(render, raw);
+  addWorkOptions(render, raw);
+
+  CLI::App* encode = addCommand(app, raw, "encode", "the film from the pictures of a run");
+  addPath(encode, raw, "RUN", "the run directory");
+  addWorkOptions(encode, raw);
+}
+
+void addLookingCommands(CLI::App& app, RawOptions& raw) {
+  CLI::App* info = addCommand(app, raw, "info", "what a run, a scene or a mesh holds");
+  addPath(info, raw, "PATH", "a run directory, a scene file or an OBJ file");
+  CLI::App* verify = addCommand(app, raw, "verify", "every file of a run against the hashes of its manifest");
+  addPath(verify, raw, "RUN", "the run directory");
+  CLI::App* reference = addCommand(app, raw, "reference", "print what is known of the scene file's keys");
+  reference->add_option("PAGE", raw.options.page, "parameters (for people) or schema (for editors)")
+      ->required()
+      ->check(CLI::IsMember({"parameters", "schema"}))
+      ->option_text(" ");
+}
+
+/// The first word that is no option; CLI11 itself would only say that a command is missing.
+void refuseUnknownCommand(const CLI::App& app, int count, const char* const* arguments) {
+  if (count < 2 || arguments[1][0] == '-') return;
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    if (command->get_name() == arguments[1]) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw InputError(fmt::format("brisance: {}: unknown command; must be one of {}", arguments[1], known));
+}
+
+std::string inOneLine(std::string text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+Options finished(RawOptions raw) {
+  Options options = std::move(raw.options);
+  if (!raw.frames.empty()) options.frames = parseFrameRange(raw.frames);
+  if (!raw.size.empty()) options.size = parsePictureSize(raw.size);
+  if (raw.samples > 0) options.samples = raw.samples;
+  if (raw.overwrite) options.existing = ExistingRun::overwrite;
+  if (raw.resume) options.existing = ExistingRun::resume;
+  return options;
+}
+
+}  // namespace
+
+FrameRange parseFrameRange(const std::string& text) {
+  std::string_view rest = text;
+  const auto first = takeNumber(rest);
+  const auto last = take(rest, '-') ? takeNumber(rest) : first;
+  const auto step = take(rest, ':') ? takeNumber(rest) : std::optional<int>(1);
+  if (!first || !last || !step || !rest.empty() || *last < *first)
+    throw InputError(fmt::format(
+        "brisance: --frames: must be A-B or A-B:S with 1 <= A <= B and S >= 1, like 1-100:2, got {}", text));
+  return {*first, *last, *step};
+}
+
+PictureSize parsePictureSize(const std::string& text) {
+  std::string_view rest = text;
+  const auto width = takeNumber(rest);
+  const auto height = take(rest, 'x') ? takeNumber(rest) : std::nullopt;
+  if (!width || !height || !rest.empty())
+    throw InputError(fmt::format("brisance: --size: must be WIDTHxHEIGHT in pixels, like 640x480, got {}", text));
+  return {*width, *height};
+}
+
+CommandLine parseCommandLine(int count, const char* const* arguments) {
+  CLI::App app("One scene file in; a film of an exploding, shattering scene out.", "brisance");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("brisance ") + BRISANCE_VERSION);
+  RawOptions raw;
+  addSceneCommands(app, raw);
+  addPictureCommands(app, raw);
+  addLookingCommands(app, raw);
+  refuseUnknownCommand(app, count, arguments);
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& trouble) {
+    if (trouble.get_exit_code() == 0) return {app.exit(trouble), {}};
+    throw InputError(fmt::format("brisance: {} (brisance --help lists what there is)", inOneLine(trouble.what())));
+  }
+  raw.options.arguments.assign(arguments, arguments + count);
+  return {std::nullopt, finished(std::move(raw))};
+}
+
+}  // namespace brisance

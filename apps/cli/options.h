@@ -1,0 +1,57 @@
+// What can be typed behind `brisance`, as plain values.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace brisance {
+
+/// Frames first, first + step, ... up to last; all count from 1.
+struct FrameRange {
+  int first = 1;
+  int last = 0;  ///< 0: to the end
+  int step = 1;
+};
+
+/// "A-B:S", "A-B" or "A". Throws InputError naming --frames.
+FrameRange parseFrameRange(const std::string& text);
+
+struct PictureSize {
+  int width = 0, height = 0;  ///< [pixels]
+};
+
+/// "WxH". Throws InputError naming --size.
+PictureSize parsePictureSize(const std::string& text);
+
+/// What may happen to a run that exists.
+enum class ExistingRun { refuse, overwrite, resume };
+
+struct Options {
+  std::vector<std::string> arguments;  ///< as typed, the program's name first
+  std::string command;
+  std::filesystem::path path;                  ///< SCENE, RUN or PATH
+  std::filesystem::path output;                ///< empty: not given
+  std::string page;                            ///< of `reference`
+  std::optional<FrameRange> frames;            ///< absent: all
+  std::optional<PictureSize> size;             ///< absent: the scene's
+  std::optional<int> samples;                  ///< absent: the scene's
+  std::vector<std::string> overrides;          ///< "key.path=value"
+  int threads = 0;                             ///< 0: all cores
+  ExistingRun existing = ExistingRun::refuse;  ///< --overwrite, --resume
+  bool skipExisting = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// What is left to do once the command line was read: exit with this code, or go on with the options.
+struct CommandLine {
+  std::optional<int> exitCode;  ///< --help and --version were answered already
+  Options options;
+};
+
+/// Throws InputError with one line for anything that does not belong there.
+CommandLine parseCommandLine(int count, const char* const* arguments);
+
+}  // namespace brisance

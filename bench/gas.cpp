@@ -1,0 +1,131 @@
+// How fast the gas is. Rows are named What/Input/Size/Who; each carries its threads and the accuracy reached,
+// recomputed in double precision from the result.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cstring>
+
+#include "base/parallel.h"
+#include "fluid/fluid_step.h"
+#include "fluid/solid_fractions.h"
+
+namespace brisance {
+namespace {
+
+constexpr double boxSide = 1;  // [m]
+
+FluidSettings boxOf(int cells) {
+  FluidSettings settings;
+  settings.cells = {cells, cells, cells};
+  settings.cellSize = boxSide / cells;
+  return settings;
+}
+
+/// An axis-aligned box as two triangles a side, counter-clockwise seen from outside.
+TriangleMesh blockMesh(const Vec3d& lower, const Vec3d& upper) {
+  TriangleMesh mesh;
+  for (int corner = 0; corner < 8; ++corner)
+    mesh.vertices.push_back(
+        {corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y, corner & 4 ? upper.z : lower.z});
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+/// Three blocks, one of them a wall thinner than a cell.
+SolidStamp threeSolids(const FluidSettings& settings) {
+  std::vector<MovingSolid> solids;
+  for (const auto& [lower, upper] :
+       {std::pair(Vec3d(.1, .1, .1), Vec3d(.3, .5, .3)), std::pair(Vec3d(.6, 0, .6), Vec3d(.9, .3, .9)),
+        std::pair(Vec3d(.2, .2, .699), Vec3d(.5, .9, .701))})
+    solids.push_back({std::make_shared<const TriangleMesh>(blockMesh(lower, upper)), {}, {}, {}});
+  return stampSolids(settings, solids);
+}
+
+/// A ball of gas that expands in the middle of the box.
+void addSource(FluidState& gas) {
+  constexpr double radius = 0.15;  // [m]
+  constexpr float rate = 5;        // [1/s]
+  Grid3<float>& source = gas.divergence;
+  for (int k = 0; k < source.size.z; ++k)
+    for (int j = 0; j < source.size.y; ++j)
+      for (int i = 0; i < source.size.x; ++i)
+        if (!gas.solid.inside(i, j, k) && length(source.position(i, j, k) - Vec3d(.5, .5, .5)) < radius)
+          source(i, j, k) = rate;
+}
+
+FluidState sourceIn(const FluidSettings& settings, const SolidStamp& solid) {
+  FluidState gas = makeFluid(settings, solid, 1);
+  addSource(gas);
+  return gas;
+}
+
+void count(benchmark::State& state, const FluidState& gas, int iterations) {
+  state.counters["threads"] = threadCount();
+  state.counters["divergence"] = divergenceError(gas);
+  state.counters["iterations"] = iterations;
+}
+
+/// From gas at rest, so that every iteration solves the same problem.
+void solvePressure(benchmark::State& state, int cells, bool solids) {
+  const FluidSettings settings = boxOf(cells);
+  const FluidState atRest = sourceIn(settings, solids ? threeSolids(settings) : stampSolids(settings, {}));
+  FluidState gas = atRest;
+  PressureScratch scratch;
+  PressureReport report;
+  constexpr double dt = 0.01;  // [s]
+  for (auto _ : state) {
+    state.PauseTiming();
+    gas.velocity = atRest.velocity;
+    gas.pressure = atRest.pressure;
+    state.ResumeTiming();
+    report = project(gas, settings, dt, scratch);
+  }
+  count(state, gas, report.iterations);
+}
+
+void stepGas(benchmark::State& state, int cells) {
+  FluidSettings settings = boxOf(cells);
+  settings.buoyancy = 0.01;
+  settings.vorticityConfinement = 0.5;
+  FluidState gas = sourceIn(settings, stampSolids(settings, {}));
+  FluidScratch scratch;
+  FluidReport report;
+  constexpr double sootPerMass = 1, largestSource = 5;  // [1], [1/s]
+  for (auto _ : state)
+    report = stepFluid(gas, settings, sootPerMass, longestStep(gas, settings, largestSource), scratch);
+  count(state, gas, report.pressure.iterations);
+}
+
+/// What the memory gives at most: a copy of 512 MB by all threads.
+void copyArray(benchmark::State& state) {
+  constexpr std::int64_t bytes = std::int64_t{512} << 20, grain = 1 << 22;
+  std::vector<char> from(bytes, 1), to(bytes);
+  const auto start = std::chrono::steady_clock::now();
+  for (auto _ : state)
+    parallelFor(0, bytes, grain, [&](std::int64_t first, std::int64_t last) {
+      std::memcpy(to.data() + first, from.data() + first, static_cast<std::size_t>(last - first));
+    });
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  state.counters["GB/s"] = 2e-9 * static_cast<double>(bytes * state.iterations()) / seconds;  // read and written
+  state.counters["threads"] = threadCount();
+}
+
+template <class... Arguments>
+void add(const std::string& name, Arguments... arguments) {
+  benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMillisecond);
+}
+
+const bool registered = [] {
+  for (const int cells : {64, 128}) {
+    const std::string size = std::to_string(cells);
+    add("Pressure/Box/" + size + "/Brisance", solvePressure, cells, false);
+    add("Pressure/Solids/" + size + "/Brisance", solvePressure, cells, true);
+  }
+  add("Step/DonorCell/128/Brisance", stepGas, 128);
+  add("Copy/Array/512M/Memory", copyArray);
+  return true;
+}();
+
+}  // namespace
+}  // namespace brisance

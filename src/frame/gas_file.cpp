@@ -1,0 +1,203 @@
+#include "frame/gas_file.h"
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/Stream.h>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+#include <tuple>
+
+#include "base/check.h"
+
+namespace brisance {
+
+namespace {
+
+constexpr int brickSide = 8;  // of our bricks and of OpenVDB's leaves alike
+constexpr char sizeKey[] = "brisance_size";
+
+openvdb::Vec3s toVdb(const Vec3f& v) { return {v.x, v.y, v.z}; }
+float toVdb(float value) { return value; }
+Vec3f fromVdb(const openvdb::Vec3s& v) { return {v.x(), v.y(), v.z()}; }
+float fromVdb(float value) { return value; }
+
+/// Our bricks run along i first, the library's leaves along k.
+int leafOffset(int n) {
+  const int i = n % brickSide, j = n / brickSide % brickSide, k = n / (brickSide * brickSide);
+  return (i * brickSide + j) * brickSide + k;
+}
+
+/// Inactive values are kept by the file only as the background, so whatever differs by a single bit is active.
+template <class T>
+bool sameBits(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+template <class Leaf, class T>
+std::unique_ptr<Leaf> makeLeaf(const typename SparseGrid<T>::Brick& brick, const T& background) {
+  auto leaf = std::make_unique<Leaf>(openvdb::Coord(brick.corner.x, brick.corner.y, brick.corner.z), toVdb(background));
+  for (int n = 0; n < static_cast<int>(brick.values.size()); ++n)
+    if (!sameBits(brick.values[n], background)) leaf->setValueOn(leafOffset(n), toVdb(brick.values[n]));
+  return leaf;
+}
+
+template <class VdbGrid, class T>
+typename VdbGrid::Ptr makeVdbGrid(const SparseGrid<T>& grid, const std::string& name) {
+  auto vdb = VdbGrid::create(toVdb(grid.background));
+  for (const auto& brick : grid.bricks)
+    vdb->tree().addLeaf(makeLeaf<typename VdbGrid::TreeType::LeafNodeType>(brick, grid.background).release());
+  auto transform = openvdb::math::Transform::createLinearTransform(grid.cellSize);
+  transform->postTranslate({grid.origin.x, grid.origin.y, grid.origin.z});
+  vdb->setTransform(transform);
+  vdb->setName(name);
+  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
+  vdb->insertMeta(sizeKey, openvdb::Vec3IMetadata({grid.size.x, grid.size.y, grid.size.z}));
+  return vdb;
+}
+
+/// Writes with the grids' offsets, so that readers may pick one grid; the library offers that for files on disk alone,
+/// and its own file stream takes a full disk for success.
+class MemoryArchive : public openvdb::io::Archive {
+ public:
+  void writeTo(std::ostream& out, const openvdb::GridCPtrVec& grids) const {
+    openvdb::io::Archive::write(out, grids, /*seekable=*/true);
+  }
+};
+
+/// The library writes a random UUID behind magic number, versions and the offsets flag.
+void replaceUuid(std::string& vdb, const std::string& hash) {
+  constexpr std::size_t start = sizeof(std::int64_t) + 3 * sizeof(std::uint32_t) + sizeof(char);
+  constexpr std::size_t dashes[] = {8, 13, 18, 23};
+  std::string uuid = hash;
+  for (const std::size_t dash : dashes) {
+    CHECK(vdb.size() > start + dash && vdb[start + dash] == '-', "no UUID in the header of the VDB");
+    uuid.insert(dash, "-");
+  }
+  vdb.replace(start, uuid.size(), uuid);
+}
+
+template <class T>
+void addGrid(ContentHash& hash, const SparseGrid<T>& grid, std::string_view name) {
+  const auto addValue = [&](const auto& value) { hash.add(&value, sizeof value); };
+  hash.add(name);
+  addValue(grid.size);
+  addValue(grid.origin);
+  addValue(grid.cellSize);
+  addValue(grid.background);
+  for (const auto& brick : grid.bricks) {
+    addValue(brick.corner);
+    addValue(brick.values);
+  }
+}
+
+/// What a grid promises beside its values; thrown as DamagedFile by the caller.
+struct BadGrid {
+  std::string what;
+};
+
+template <class T>
+void addBrick(SparseGrid<T>& grid, const Vec3i& corner, const auto& leaf) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (corner[axis] < 0 || corner[axis] >= grid.size[axis]) throw BadGrid{"has values outside its size"};
+  typename SparseGrid<T>::Brick brick{corner, {}};
+  for (int n = 0; n < static_cast<int>(brick.values.size()); ++n)
+    brick.values[n] = fromVdb(leaf.getValue(leafOffset(n)));
+  grid.bricks.push_back(brick);
+}
+
+template <class T>
+void sortBricks(SparseGrid<T>& grid) {
+  const auto place = [](const auto& brick) { return std::tuple(brick.corner.z, brick.corner.y, brick.corner.x); };
+  std::sort(grid.bricks.begin(), grid.bricks.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+}
+
+template <class VdbGrid, class T>
+void fromVdbGrid(const openvdb::GridBase::ConstPtr& base, SparseGrid<T>& grid) {
+  const auto vdb = openvdb::gridConstPtrCast<VdbGrid>(base);
+  if (!vdb) throw BadGrid{"is missing or of another type"};
+  const auto size = vdb->template getMetadata<openvdb::Vec3IMetadata>(sizeKey);
+  if (!size) throw BadGrid{"was not written by this program"};
+  grid.size = {size->value().x(), size->value().y(), size->value().z()};
+  const openvdb::Vec3d origin = vdb->indexToWorld(openvdb::Coord(0, 0, 0));
+  grid.origin = {origin.x(), origin.y(), origin.z()};
+  grid.cellSize = vdb->voxelSize().x();
+  grid.background = fromVdb(vdb->background());
+  if (!isFinite(grid.origin) || !(grid.cellSize > 0)) throw BadGrid{"has no place"};
+  if (vdb->tree().activeTileCount() > 0) throw BadGrid{"was not written by this program"};
+  for (auto leaf = vdb->tree().cbeginLeaf(); leaf; ++leaf)
+    addBrick(grid, {leaf->origin().x(), leaf->origin().y(), leaf->origin().z()}, *leaf);
+  sortBricks(grid);
+}
+
+template <class VdbGrid, class T>
+void readGrid(const openvdb::GridPtrVec& grids, const std::string& name, SparseGrid<T>& grid) {
+  const auto found = std::find_if(grids.begin(), grids.end(), [&](const auto& g) { return g && g->getName() == name; });
+  try {
+    fromVdbGrid<VdbGrid>(found == grids.end() ? nullptr : *found, grid);
+  } catch (const BadGrid& bad) {
+    throw BadGrid{fmt::format("grid '{}' {}", name, bad.what)};
+  }
+}
+
+FrameGas readGrids(const std::string& bytes) {
+  openvdb::initialize();
+  std::istringstream in(bytes, std::ios_base::binary);
+  in.exceptions(std::ios_base::eofbit | std::ios_base::failbit | std::ios_base::badbit);  // the library does not look
+  const auto grids = openvdb::io::Stream(in, /*delayLoad=*/false).getGrids();
+  if (!grids) throw BadGrid{"holds no grids"};
+  FrameGas gas;
+  readGrid<openvdb::FloatGrid>(*grids, "density", gas.density);
+  readGrid<openvdb::FloatGrid>(*grids, "temperature", gas.temperature);
+  readGrid<openvdb::FloatGrid>(*grids, "flame", gas.flame);
+  readGrid<openvdb::Vec3SGrid>(*grids, "vel", gas.velocity);
+  return gas;
+}
+
+}  // namespace
+
+std::string contentHash(const FrameGas& gas) {
+  ContentHash hash;
+  addGrid(hash, gas.density, "density");
+  addGrid(hash, gas.temperature, "temperature");
+  addGrid(hash, gas.flame, "flame");
+  addGrid(hash, gas.velocity, "vel");
+  return hash.hex();
+}
+
+std::string gasToVdb(const FrameGas& gas) {
+  openvdb::initialize();
+  const openvdb::GridCPtrVec grids{
+      makeVdbGrid<openvdb::FloatGrid>(gas.density, "density"),
+      makeVdbGrid<openvdb::FloatGrid>(gas.temperature, "temperature"),
+      makeVdbGrid<openvdb::FloatGrid>(gas.flame, "flame"),
+      makeVdbGrid<openvdb::Vec3SGrid>(gas.velocity, "vel"),
+  };
+  std::ostringstream out(std::ios_base::binary);
+  MemoryArchive archive;
+  archive.setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
+  archive.writeTo(out, grids);
+  std::string bytes = std::move(out).str();
+  replaceUuid(bytes, contentHash(gas));
+  return bytes;
+}
+
+FileRecord writeGas(const std::filesystem::path& path, const FrameGas& gas) {
+  return writeDurably(path, gasToVdb(gas));
+}
+
+FrameGas gasFromVdb(const std::string& bytes, const std::string& fileName) {
+  try {
+    return readGrids(bytes);
+  } catch (const BadGrid& bad) {
+    throw DamagedFile(fmt::format("{}: {}; simulate this frame again", fileName, bad.what));
+  } catch (const std::exception& error) {
+    throw DamagedFile(
+        fmt::format("{}: is no readable VDB file ({}); simulate this frame again", fileName, error.what()));
+  }
+}
+
+FrameGas readGas(const std::filesystem::path& path) { return gasFromVdb(readFile(path), path.string()); }
+
+}  // namespace brisance

@@ -1,0 +1,24 @@
+// Gas as OpenVDB: density, temperature [K], flame, vel [m/s] as fog volumes, cell centres as index points.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/durable_file.h"
+#include "frame/frame.h"
+
+namespace brisance {
+
+/// The bytes of a VDB file that `openvdb::io::File` opens, with a UUID made from the content: equal gas, equal bytes.
+std::string gasToVdb(const FrameGas& gas);
+/// Reads what gasToVdb made. Throws DamagedFile. Check the bytes' hash first: the library trusts its input.
+FrameGas gasFromVdb(const std::string& bytes, const std::string& fileName);
+
+/// Durable, with a UUID made from the content, so that equal gas is an equal file.
+FileRecord writeGas(const std::filesystem::path& path, const FrameGas& gas);
+/// Throws DamagedFile when it is no such file. Check its hash first: the library trusts its input.
+FrameGas readGas(const std::filesystem::path& path);
+/// Hash of the grids' values and places.
+std::string contentHash(const FrameGas& gas);
+
+}  // namespace brisance

@@ -1,0 +1,131 @@
+#include <algorithm>
+
+#include "base/check.h"
+#include "frame/body_file.h"
+#include "frame/gas_file.h"
+#include "frame/gltf_export.h"
+#include "frame/manifest.h"
+#include "frame/particle_file.h"
+#include "frame/run_directory.h"
+
+namespace brisance {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Manifest = std::map<std::string, ManifestEntry>;
+
+/// Of bytes that are in memory: what was checked is what is parsed.
+FileRecord recordOfBytes(const std::string& bytes) {
+  ContentHash hash;
+  hash.add(bytes);
+  return {bytes.size(), hash.hex()};
+}
+
+/// How a file differs from what was written; empty if it does not.
+std::string difference(const FileRecord& found, const FileRecord& written) {
+  if (found.size != written.size) return fmt::format("has {} bytes, {} were written", found.size, written.size);
+  if (found.hash != written.hash) return "is damaged: its hash is not the manifest's";
+  return "";
+}
+
+/// A file's bytes, after their hash was found to be the manifest's.
+std::string checkedBytes(const fs::path& run, const Manifest& manifest, const std::string& name) {
+  const auto entry = manifest.find(name);
+  const std::string path = (run / name).string();
+  if (entry == manifest.end()) throw DamagedFile(fmt::format("{}: is not in the manifest; simulate again", path));
+  std::string bytes = readFile(run / name);
+  const std::string wrong = difference(recordOfBytes(bytes), entry->second.file);
+  if (!wrong.empty()) throw DamagedFile(fmt::format("{}: {}; simulate this run again", path, wrong));
+  return bytes;
+}
+
+/// Meshes, materials and whether they move, from the pieces at rest; by name, since scenery and pieces may come and go.
+void addMeshes(const fs::path& run, const Manifest& manifest, std::vector<FrameBody>& bodies) {
+  if (bodies.empty()) return;
+  std::map<std::string, FrameBody> atRest;
+  for (FrameBody& body : piecesFromGlb(checkedBytes(run, manifest, "pieces.glb"), (run / "pieces.glb").string()))
+    atRest.emplace(body.name, std::move(body));
+  for (FrameBody& body : bodies) {
+    const auto found = atRest.find(body.name);
+    if (found == atRest.end())
+      throw DamagedFile(
+          fmt::format("{}: has no piece named '{}'; simulate again", (run / "pieces.glb").string(), body.name));
+    body.mesh = found->second.mesh;
+    body.material = found->second.material;
+    body.moves = found->second.moves;
+  }
+}
+
+void requireFrame(const fs::path& run, const Manifest& manifest, int index) {
+  if (manifest.contains(FrameFileNames(index).bodies)) return;
+  int last = 0;
+  while (manifest.contains(FrameFileNames(last + 1).bodies)) ++last;
+  throw InputError(fmt::format("{}: has no frame {}; it has {}", run.string(), index,
+                               last > 0 ? fmt::format("frames 1 to {}", last) : "none yet"));
+}
+
+std::string problemWith(const fs::path& path, const ManifestEntry& entry) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return "is missing";
+  if (const auto size = fs::file_size(path, error); !error && size != entry.file.size)
+    return difference({size, entry.file.hash}, entry.file);
+  try {
+    return difference(recordOf(path), entry.file);
+  } catch (const DamagedFile&) {
+    return "cannot be read";
+  }
+}
+
+/// Number of the last frame of which the manifest knows any result; pictures may be of any frames.
+int lastFrameMentioned(const Manifest& manifest) {
+  int last = 0;
+  for (const auto& [name, entry] : manifest) {
+    const int number = frameNumberIn(name);
+    const auto names = FrameFileNames(number).all();
+    if (std::find(names.begin(), names.end(), name) != names.end()) last = std::max(last, number);
+  }
+  return last;
+}
+
+void addMissingOfFrames(const Manifest& manifest, std::vector<std::string>& problems) {
+  const int last = lastFrameMentioned(manifest);
+  for (int index = 1; index <= last; ++index)
+    for (const std::string& name : FrameFileNames(index).all())
+      if (!manifest.contains(name)) problems.push_back(fmt::format("{}: is missing in the manifest", name));
+}
+
+}  // namespace
+
+Frame readFrame(const fs::path& run, int index, bool withGas) {
+  const Manifest manifest = readManifest(run);
+  requireFrame(run, manifest, index);
+  const FrameFileNames names(index);
+  const auto bytes = [&](const std::string& name) { return checkedBytes(run, manifest, name); };
+  const auto pathOf = [&](const std::string& name) { return (run / name).string(); };
+  Frame frame;
+  bodiesFromJson(bytes(names.bodies), pathOf(names.bodies), frame);
+  addMeshes(run, manifest, frame.bodies);
+  frame.particles = particlesFromPly(bytes(names.particles), pathOf(names.particles));
+  frame.report = reportFromJson(bytes(names.report), pathOf(names.report));
+  if (withGas) frame.gas = gasFromVdb(bytes(names.gas), pathOf(names.gas));
+  return frame;
+}
+
+std::vector<std::string> verifyRun(const fs::path& run) {
+  std::vector<std::string> problems;
+  Manifest manifest;
+  try {
+    manifest = readManifest(run);
+  } catch (const DamagedFile& damaged) {
+    return {damaged.what()};
+  }
+  for (const auto& [name, entry] : manifest)
+    if (const std::string problem = problemWith(run / name, entry); !problem.empty())
+      problems.push_back(fmt::format("{}: {}", name, problem));
+  addMissingOfFrames(manifest, problems);
+  return problems;
+}
+
+}  // namespace brisance

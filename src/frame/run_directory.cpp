@@ -1,0 +1,192 @@
+#include "frame/run_directory.h"
+
+#include <system_error>
+
+#include "base/check.h"
+#include "frame/body_file.h"
+#include "frame/gas_file.h"
+#include "frame/manifest.h"
+#include "frame/particle_file.h"
+
+namespace brisance {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+enum class Found { nothing, run, something };
+
+/// A directory in which a process was killed before its first manifest holds only hidden files, and counts as nothing.
+Found look(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return Found::nothing;
+  if (!fs::is_directory(path, error)) return Found::something;
+  if (fs::exists(path / manifestName, error)) return Found::run;
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name != ".lock" && !name.starts_with(".tmp.")) return Found::something;
+  }
+  if (error) throw Error(ExitCode::noRoom, fmt::format("{}: cannot be read: {}", path.string(), error.message()));
+  return Found::nothing;
+}
+
+void refuseWrongPlace(const fs::path& path, RunDirectory::Mode mode) {
+  using Mode = RunDirectory::Mode;
+  const Found found = look(path);
+  const bool makesNew = mode == Mode::create || mode == Mode::overwrite;
+  if (makesNew && found == Found::something)
+    throw InputError(fmt::format("{}: is in use and holds no run; choose a new or an empty directory", path.string()));
+  if (mode == Mode::create && found == Found::run)
+    throw InputError(
+        fmt::format("{}: holds a run already; --resume continues it, --overwrite replaces it, or choose another "
+                    "directory",
+                    path.string()));
+  if (mode == Mode::resume && found != Found::run)
+    throw InputError(fmt::format("{}: holds no run to resume; leave out --resume to start one", path.string()));
+  if (mode == Mode::open && found != Found::run)
+    throw InputError(fmt::format("{}: holds no run; name a directory that 'brisance run' or 'brisance simulate' made",
+                                 path.string()));
+}
+
+void removeAllTemporaries(const fs::path& run) {
+  removeTemporaries(run);
+  for (const std::string& folder : runFolders()) removeTemporaries(run / folder);
+}
+
+/// Files of a run in its folders, whether a manifest knows them or not.
+std::vector<std::string> runFilesIn(const fs::path& run) {
+  std::vector<std::string> names;
+  std::error_code error;
+  const auto addFrom = [&](const std::string& folder) {
+    for (const auto& entry : fs::directory_iterator(run / folder, error)) {
+      const std::string name = (fs::path(folder) / entry.path().filename()).generic_string();
+      if (name != manifestName && isNameOfRunFile(name)) names.push_back(name);
+    }
+  };
+  addFrom("");
+  for (const std::string& folder : runFolders()) addFrom(folder);
+  return names;
+}
+
+/// Names in the manifest of a run that is about to go; a damaged manifest does not save it.
+std::vector<std::string> namesInManifest(const fs::path& run) {
+  std::vector<std::string> names;
+  try {
+    for (const auto& [name, entry] : readManifest(run)) names.push_back(name);
+  } catch (const Error&) {
+    names.clear();
+  }
+  return names;
+}
+
+void deleteFiles(const fs::path& run, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    std::error_code error;
+    fs::remove(run / name, error);
+    if (error)
+      throw Error(ExitCode::noRoom, fmt::format("{}: cannot be removed: {}", (run / name).string(), error.message()));
+  }
+}
+
+/// Those that hold nothing else.
+void removeEmptyFolders(const fs::path& run) {
+  for (const std::string& folder : runFolders()) {
+    std::error_code notEmpty;
+    fs::remove(run / folder, notEmpty);
+  }
+}
+
+bool hasRecordedSize(const fs::path& path, const ManifestEntry& entry) {
+  std::error_code error;
+  return fs::file_size(path, error) == entry.file.size && !error;
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(const fs::path& path, Mode mode) : path_(path) {
+  refuseWrongPlace(path_, mode);
+  if (mode == Mode::create || mode == Mode::overwrite) makeDirectories(path_);
+  lock_ = std::make_unique<DirectoryLock>(path_);
+  refuseWrongPlace(path_, mode);  // another process may have been first
+  removeAllTemporaries(path_);
+  if (mode == Mode::create) writeManifest();
+  if (mode == Mode::overwrite) replaceOldRun();
+  if (mode == Mode::resume) continueOldRun();
+  if (mode == Mode::open) manifest_ = readManifest(path_);
+}
+
+/// The empty manifest comes first: killed in between, the directory holds a new run and some files that it ignores.
+void RunDirectory::replaceOldRun() {
+  const std::vector<std::string> old = namesInManifest(path_);
+  writeManifest();
+  deleteFiles(path_, old);
+  deleteFiles(path_, runFilesIn(path_));
+  removeEmptyFolders(path_);
+}
+
+/// Files that somebody deleted or cut off since are made again.
+void RunDirectory::continueOldRun() {
+  manifest_ = readManifest(path_);
+  if (std::erase_if(manifest_, [&](const auto& item) { return !hasRecordedSize(path_ / item.first, item.second); }) > 0)
+    writeManifest();
+}
+
+void RunDirectory::writeManifest() { writeDurably(path_ / manifestName, manifestToJson(manifest_)); }
+
+FileRecord RunDirectory::writeFile(const std::string& name, const std::string& bytes) {
+  CHECK(isNameInRun(name), "{}", name);
+  const fs::path path = path_ / name;
+  makeDirectories(path.parent_path());
+  return writeDurably(path, bytes);
+}
+
+void RunDirectory::add(const std::string& name, const std::string& bytes, const std::string& content) {
+  record({{name, {writeFile(name, bytes), content}}});
+}
+
+void RunDirectory::record(const std::map<std::string, ManifestEntry>& entries) {
+  for (const auto& [name, entry] : entries) {
+    CHECK(isNameInRun(name), "{}", name);
+    manifest_[name] = entry;
+  }
+  writeManifest();
+}
+
+void RunDirectory::remove(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    CHECK(isNameInRun(name), "{}", name);
+    manifest_.erase(name);
+  }
+  writeManifest();
+  deleteFiles(path_, names);
+}
+
+void RunDirectory::addFrame(const Frame& frame) {
+  const FrameFileNames names(frame.index);
+  record(
+      {{names.gas, {writeFile(names.gas, gasToVdb(frame.gas)), contentHash(frame.gas)}},
+       {names.bodies, {writeFile(names.bodies, bodiesToJson(frame)), contentHash(frame.bodies)}},
+       {names.particles, {writeFile(names.particles, particlesToPly(frame.particles)), contentHash(frame.particles)}},
+       {names.report, {writeFile(names.report, reportToJson(frame)), ""}}});
+}
+
+std::string RunDirectory::addInput(const fs::path& source) {
+  const std::string bytes = readFile(source);
+  ContentHash hash;
+  hash.add(bytes);
+  const std::string name = "inputs/" + hash.hex() + source.extension().string();
+  if (!manifest_.contains(name)) add(name, bytes);
+  return name;
+}
+
+int RunDirectory::lastFrame() const {
+  const auto isWhole = [&](int index) {
+    const auto names = FrameFileNames(index).all();
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) { return manifest_.contains(name); });
+  };
+  int last = 0;
+  while (isWhole(last + 1)) ++last;
+  return last;
+}
+
+}  // namespace brisance

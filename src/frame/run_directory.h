@@ -1,0 +1,76 @@
+// The files of a run (docs/files.md): every finished one in the manifest with its hash.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/durable_file.h"
+#include "frame/frame.h"
+
+namespace brisance {
+
+/// What the manifest holds for a file.
+struct ManifestEntry {
+  FileRecord file;
+  std::string
+      content;  ///< hash of what the file means (grid values, poses, particles, pixels); empty where bytes say it all
+};
+
+/// A run directory being written or read. Paths in the manifest are relative, with '/'.
+class RunDirectory {
+ public:
+  enum class Mode {
+    create,     ///< must not hold a run yet
+    overwrite,  ///< an old run's files are removed first
+    resume,     ///< continue an old run
+    open        ///< pictures, film: add files to a run
+  };
+  /// Takes the lock for writing modes (all). Throws InputError for a run that exists (create) or does not (resume,
+  /// open), with the option that would do it.
+  RunDirectory(const std::filesystem::path& path, Mode mode);
+
+  const std::filesystem::path& path() const { return path_; }
+  const std::map<std::string, ManifestEntry>& manifest() const { return manifest_; }
+
+  /// Writes a file durably and then the manifest.
+  void add(const std::string& name, const std::string& bytes, const std::string& content = "");
+  /// Several files that become known together: written first, then one manifest.
+  void record(const std::map<std::string, ManifestEntry>& entries);
+  /// Forgets and deletes.
+  void remove(const std::vector<std::string>& names);
+
+  /// gas, bodies, particles and report of a frame, then one manifest with all of them.
+  void addFrame(const Frame& frame);
+  /// Copies of a file as inputs/HASH.EXT; returns that relative name.
+  std::string addInput(const std::filesystem::path& source);
+
+  /// Last frame N such that frames 1..N are whole in the manifest.
+  int lastFrame() const;
+
+ private:
+  void writeManifest();
+  void replaceOldRun();
+  void continueOldRun();
+  FileRecord writeFile(const std::string& name, const std::string& bytes);
+  std::filesystem::path path_;
+  std::unique_ptr<DirectoryLock> lock_;
+  std::map<std::string, ManifestEntry> manifest_;
+};
+
+/// frameFile("gas", "gas", 7, "vdb") is "gas/gas.0007.vdb".
+std::string frameFile(const std::string& folder, const std::string& stem, int index, const std::string& extension);
+
+/// Reads only; no lock.
+std::map<std::string, ManifestEntry> readManifest(const std::filesystem::path& run);
+
+/// A frame as it was written, its files' hashes checked against the manifest before a parser sees them. The gas is read
+/// only on request. Bodies' meshes come from pieces.glb.
+Frame readFrame(const std::filesystem::path& run, int index, bool withGas);
+
+/// What is wrong with a run: one line per file that is missing, or has another size or hash. Empty: all is well.
+std::vector<std::string> verifyRun(const std::filesystem::path& run);
+
+}  // namespace brisance

@@ -1,0 +1,25 @@
+// Where pictures are taken from.
+#pragma once
+
+#include "render/render_settings.h"
+
+namespace brisance {
+
+/// The camera's place at a time [s] of film: Catmull-Rom through the keys for any spacing of their times; before the
+/// first and after the last key that key holds. Keys in order of time; without keys the default key.
+CameraKey cameraAt(const CameraSettings& settings, double time);
+
+/// A pinhole camera.
+class Camera {
+ public:
+  /// A picture of `width` x `height` square pixels. Where `up` is along the view, another axis stands in for it.
+  Camera(const CameraKey& key, int width, int height);
+  const Vec3d& position() const { return position_; }
+  /// Unit direction through a place of the picture: (0, 0) its upper left corner, (width, height) its lower right one.
+  Vec3d direction(double x, double y) const;
+
+ private:
+  Vec3d position_, upperLeft_, right_, down_;  ///< upperLeft_ + x right_ + y down_: through pixel place (x, y)
+};
+
+}  // namespace brisance

@@ -1,0 +1,104 @@
+// The gas as light passes it (appendix A.2): the particles' volume marched from front to back.
+#pragma once
+
+#include <memory>
+
+#include "frame/particle_volume.h"
+#include "render/render_settings.h"
+
+namespace brisance {
+
+/// A straight way through the gas, in metres from `origin` along the unit `direction`.
+struct GasPath {
+  Vec3f origin, direction;
+  float near, far;
+  float phase = 0.5f;  ///< 0 .. 1: where in a step the samples lie, different for each pixel so that no bands are seen
+};
+
+/// What comes out of a way's near end: the gas' own light, and the share of what lies behind.
+struct GasPassage {
+  Vec3f light;
+  float transmittance = 1;
+};
+
+/// How opaque gas of a density is, and how bright.
+class GasOptics {
+ public:
+  explicit GasOptics(const VolumeSettings& settings);
+  /// Opacity per metre, kappa = tau d with d = min_d + (max_d - min_d) min(1, density / fullDensity). The part min_d
+  /// fades in over the first hundredth of the range, so that thin gas has no rim. [1/m]
+  float extinction(float density) const;
+  /// What fully opaque gas of a blackbody colour gives off itself: part of I in equation A.4.
+  Vec3f glow(const Vec3f& colour) const { return colour * emission_; }
+  /// The other part: what it scatters of light of that radiance from all around.
+  Vec3f scattered(const Vec3f& around) const { return smokeColour_ * around; }
+
+ private:
+  float opacity_, minDensity_, densityRange_, fullDensity_, emission_;
+  Vec3f smokeColour_;
+};
+
+struct LightSource;
+
+/// A sample of the gas as one vector of the processor: density times colour, and the density.
+struct GasSample {
+  using Vector [[gnu::vector_size(16)]] = float;
+  Vector values;
+  float density() const { return values[3]; }
+  Vec3f colour() const { return Vec3f(values[0], values[1], values[2]) / values[3]; }  ///< where there is density
+};
+
+/// Room for samples, used again from frame to frame: fresh pages cost more time than the samples in them.
+struct SampleMemory {
+  std::unique_ptr<GasSample[]> samples;
+  std::int64_t count = 0;
+};
+
+/// A volume and a coarse grid of blocks over it, by which rays skip the empty parts.
+class GasMedium {
+ public:
+  static constexpr int blockCells = 8;  ///< along each edge of a block
+
+  /// Copies the volume, into `memory` where that is large enough.
+  GasMedium(const ParticleVolume& volume, const VolumeSettings& settings, SampleMemory memory = {});
+  /// The memory of a medium that is no longer needed.
+  static SampleMemory memoryOf(GasMedium&& gas) { return std::move(gas.memory_); }
+
+  /// What each block scatters, once and alike in all directions: light of the surroundings as much as the gas on six
+  /// sides lets through, and what lights send through the gas before it. Bodies do not shade the gas. Before it is
+  /// called, gas scatters none.
+  void illuminate(const Vec3f& ambientLight, const std::vector<LightSource>& lights);
+
+  /// Light and opacity added up from front to back (equations A.3 and A.4), ended where the opacity exceeds 0.999:
+  /// what lies behind then counts as nothing.
+  GasPassage march(const GasPath& path) const;
+  /// The share of light that passes, from the mean of each block alone: for shadows.
+  float roughTransmittance(const GasPath& path) const;
+
+  /// What a block's gas gives off: the integral of extinction times glow over its cells, [radiance m2].
+  const Grid3<Vec3f>& blockGlow() const { return blockGlow_; }
+  /// [1/m], mean over the block's cells (blocks at the upper ends of the volume may have fewer).
+  const Grid3<float>& blockExtinction() const { return blockExtinction_; }
+
+ private:
+  Vec3f arriving(const Vec3f& place, const Vec3f& ambientLight, const std::vector<LightSource>& lights) const;
+  void summariseBlock(const ParticleVolume& volume, int i, int j, int k);
+  void pack(const ParticleVolume& volume);
+  GasSample sampleAt(const Vec3f& cells) const;
+  void addStep(const Vec3f& place, float stepLength, GasPassage& passage) const;
+  void boundOccupied();
+  bool clip(GasPath& path) const;
+
+  Vec3i size_;           ///< [cells]
+  float cellSize_;       ///< [m]
+  SampleMemory memory_;  ///< the cells' samples at their centres, x fastest
+  GasOptics optics_;
+  float step_;                    ///< [m]
+  Vec3f origin_, lower_, upper_;  ///< [m] sample (0, 0, 0), and the box of the blocks that hold gas
+  Grid3<float> blockExtinction_;
+  Grid3<float> blockLargest_;  ///< density no cell of the block exceeds, its rim of neighbours included
+  Grid3<Vec3f> blockGlow_;
+  Grid3<Vec3f> blockScattered_;  ///< radiance that fully opaque gas there scatters
+};
+
+}  // namespace brisance

@@ -1,0 +1,56 @@
+// The bodies of a frame as something that rays hit.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "frame/frame.h"
+#include "render/materials.h"
+
+namespace brisance {
+
+struct Ray {
+  Vec3f origin;     ///< [m]
+  Vec3f direction;  ///< unit
+  float near = 0;   ///< [m] where it begins
+  float time = 0;   ///< 0 .. 1 while the shutter is open
+};
+
+struct SurfaceHit {
+  float distance = 0;   ///< [m]
+  Vec3f normal;         ///< of the triangle: unit, outward
+  Vec3f shadingNormal;  ///< between the vertices where the material is smooth, else `normal`: unit, outward
+  Vec2<float> uv;
+  std::uint16_t material = 0;
+  std::uint32_t body = 0;
+};
+
+/// A bounding volume hierarchy (Embree) over transformed copies of all bodies; built anew for each frame.
+class SceneGeometry {
+ public:
+  /// `openTime` [s]: how long the bodies move during the picture, half of it before and half after their poses.
+  /// Throws InputError for a material that `materials` does not have, Error(noRoom) when memory runs out.
+  SceneGeometry(const std::vector<FrameBody>& bodies, const MaterialTable& materials, double openTime);
+  ~SceneGeometry();
+  SceneGeometry(const SceneGeometry&) = delete;
+  SceneGeometry& operator=(const SceneGeometry&) = delete;
+
+  /// The first surface beyond ray.near.
+  bool closest(const Ray& ray, SurfaceHit& hit) const;
+  /// The share of light that comes along the ray over `distance` [m]: 0 behind a surface that casts a shadow. Light
+  /// passes glass straight (no caustics), is absorbed in it, and loses at each of its surfaces the reflection at normal
+  /// incidence.
+  Vec3f lightPassing(const Ray& ray, float distance) const;
+  /// Whether at a hit on glass another body of the same glass touches it, so that there is no surface to see: the
+  /// hidden faces between pieces that have not parted yet.
+  bool touchesSameGlass(const Ray& ray, const SurfaceHit& hit) const;
+  /// A distance [m] below which two surfaces are one: float positions carry an error of this size.
+  float resolution() const { return resolution_; }
+
+ private:
+  struct Bodies;
+  std::unique_ptr<Bodies> bodies_;
+  float resolution_;
+};
+
+}  // namespace brisance

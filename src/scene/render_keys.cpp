@@ -1,0 +1,131 @@
+// The tables of the picture: camera, materials, lights, render.
+#include "scene/scene_keys.h"
+
+namespace brisance {
+namespace {
+
+constexpr std::string_view lightNames[] = {"point", "sun", "fire"};
+constexpr std::string_view blackbodyNames[] = {"physical_blackbody", "tuned_blackbody"};
+constexpr double brightest = 1e6;  // keeps products of colours finite in single precision
+
+void describeView(KeyVisitor& v, CameraViewKeys& view) {
+  visit(v, {"position", "m", anyValue, "of the eye"}, view.key.position);
+  visit(v, {"look_at", "m", anyValue, "what is in the middle of the picture"}, view.key.lookAt);
+  visit(v, {"up", "", anyValue, "which way is up in the picture"}, view.key.up);
+  visit(v, {"fov_degrees", "degrees", {0, 175, false}, "vertical field of view", {}, "40"}, view.fovDegrees);
+  visit(v, {"focal_length_mm", "mm", above(0), "in place of fov_degrees", {}, "from fov_degrees"}, view.focalLengthMm);
+  visit(v, {"sensor_height_mm", "mm", above(0), "that focal_length_mm refers to"}, view.sensorHeightMm);
+}
+
+void describeCameraKey(KeyVisitor& v, CameraViewKeys& view) {
+  visit(v, {"time", "s", anyValue, "of film, rising from key to key"}, view.key.time);
+  describeView(v, view);
+}
+
+struct LightKeys {
+  void operator()(KeyVisitor& v, PointLight& light) const {
+    visit(v, {"position", "m", anyValue, "of the light"}, light.position);
+    visit(v, {"intensity", "", between(0, brightest), "radiance at one metre: red, green, blue"}, light.intensity);
+    visit(v, {"falloff", "", between(0, 4), "power of the distance: 2 is physical, 0 none"}, light.falloff);
+  }
+  void operator()(KeyVisitor& v, SunLight& light) const {
+    visit(v, {"direction", "", anyValue, "the way the light travels"}, light.direction);
+    visit(v, {"radiance", "", between(0, brightest), "red, green, blue"}, light.radiance);
+  }
+  void operator()(KeyVisitor& v, FireLight& light) const {
+    visit(v, {"strength", "", between(0, brightest), "1 is as bright as the fire is seen"}, light.strength);
+    visit(v, {"lights", "", between(1, 4096), "point lights that stand for the fire of a frame"}, light.lights);
+  }
+};
+
+struct BlackbodyKeys {
+  void operator()(KeyVisitor& v, PhysicalBlackbody& map) const {
+    visit(v, {"exposure_temperature", "K", between(500, 20000), "whose luminance is 1"}, map.exposureTemperature);
+  }
+  void operator()(KeyVisitor&, TunedBlackbody&) const {}
+};
+
+void describeVolumeLook(KeyVisitor& v, VolumeSettings& volume) {
+  visit(v, {"blur", "m", atLeast(0), "deviation of the Gaussian over the particles", {"alpha", "5.1, 5.3"}},
+        volume.blur);
+  visit(v,
+        {"filter_size",
+         "",
+         between(0, 255),
+         "width of the Gaussian in cells, odd; 0 is three deviations",
+         {"n_f", "5.1, 5.3"}},
+        volume.filterSize);
+  visit(v,
+        {"min_density", "", between(0, 1), "mapped density of the thinnest gas that is drawn", {"min_d", "5.1, 5.3"}},
+        volume.minDensity);
+  visit(v, {"max_density", "", {0, 1, false}, "mapped density of full_density", {"max_d", "5.1, 5.3"}},
+        volume.maxDensity);
+  visit(v, {"full_density", "kg/m3", above(0), "mapped to max_density; one range for the whole run"},
+        volume.fullDensity);
+  visit(v, {"opacity", "1/m", atLeast(0), "per mapped density", {"tau", "5.1, 5.3"}}, volume.opacity);
+  visit(v, {"fuel_weight", "", atLeast(0), "how much burning fuel counts, times its mass"}, volume.fuelWeight);
+  visit(v, {"emission", "", between(0, brightest), "times the blackbody colour"}, volume.emission);
+  visit(v, {"smoke_colour", "", between(0, brightest), "what cold smoke scatters of the ambient light"},
+        volume.smokeColour);
+  v.enter({"blackbody", "", anyValue, "how temperature becomes colour"}, true);
+  visitAlternatives(v, blackbodyNames, volume.blackbody, BlackbodyKeys{});
+  v.leave();
+}
+
+}  // namespace
+
+void describeCamera(KeyVisitor& v, SceneDraft& draft) {
+  visit(v, {"shutter", "", between(0, 1), "fraction of a frame for which it is open"},
+        draft.scene.render.camera.shutter);
+  describeView(v, draft.camera);
+  CameraViewKeys fresh = draft.camera;  // a key says what changes; the rest is as in [camera]
+  fresh.fovDegrees.reset();
+  fresh.focalLengthMm.reset();
+  visitArray(v, {"keys", "", anyValue, "where the camera is when; what a key does not say is as in [camera]"},
+             draft.cameraKeys, fresh, describeCameraKey);
+}
+
+void describeMaterial(KeyVisitor& v, MaterialKeys& keys) {
+  Material& material = keys.material;
+  Key name{"name", "", anyValue, "by which bodies and mesh files call it"};
+  name.required = true;
+  visit(v, name, keys.name);
+  visit(v, {"colour", "", between(0, brightest), "diffuse, scene-linear red, green, blue", {}, "[0.7, 0.7, 0.7]"},
+        keys.colour);
+  visit(v, {"texture", "", anyValue, "PNG or JPEG in place of colour, relative to the scene file", {}, "none"},
+        keys.texture);
+  visit(v, {"diffuse_weight", "", between(0, 1), "R_d of Phong's model"}, material.diffuseWeight);
+  visit(v, {"specular", "", between(0, 1), "R_s of Phong's model"}, material.specular);
+  visit(v, {"specular_exponent", "", between(0, 1e6), "f of Phong's model"}, material.specularExponent);
+  visit(v, {"ambient", "", between(0, 1), "R_a of Phong's model, times the diffuse colour"}, material.ambient);
+  visit(v, {"emission", "", between(0, brightest), "times the colour or texture"}, material.emission);
+  visit(v, {"reflection", "", between(0, 1), "share that an opaque surface mirrors"}, material.reflection);
+  visit(v, {"glass", "", anyValue, "dielectric: Fresnel's shares of reflection and refraction"}, material.glass);
+  visit(v, {"refractive_index", "", between(1, 5), "of glass"}, material.refractiveIndex);
+  visit(v, {"absorption", "1/m", between(0, brightest), "inside glass"}, material.absorption);
+  visit(v, {"smooth", "", anyValue, "normals go smoothly between vertices"}, material.smooth);
+  visit(v, {"casts_shadow", "", anyValue, "false lets light through"}, material.castsShadow);
+}
+
+void describeLight(KeyVisitor& v, Light& light) { visitAlternatives(v, lightNames, light, LightKeys{}); }
+
+void describeRender(KeyVisitor& v, SceneDraft& draft) {
+  RenderSettings& render = draft.scene.render;
+  visit(v, {"width", "pixels", between(1, 16384), "of the picture"}, render.width);
+  visit(v, {"height", "pixels", between(1, 16384), "of the picture"}, render.height);
+  visit(v, {"samples", "", between(1, 64), "n of the n x n samples of a pixel"}, render.samples);
+  visit(v, {"max_depth", "", between(0, 64), "of reflection and refraction"}, render.maxDepth);
+  visit(v, {"seed", "", atLeast(0), "of the samples' places", {}, "scene.seed"}, draft.renderSeed);
+  visit(v, {"background", "", between(0, brightest), "red, green, blue beyond the scene"}, render.background);
+  visit(v, {"ambient_light", "", between(0, brightest), "red, green, blue from everywhere"}, render.ambientLight);
+  visit(v, {"exposure_stops", "", between(-30, 30), "pictures are brighter by 2 to this"}, render.exposureStops);
+  visit(v, {"write_exr", "", anyValue, "also the unclipped picture, as OpenEXR"}, render.writeExr);
+  visitTable(v, "volume", "the gas, drawn from its particles", draft, [](KeyVisitor& inner, SceneDraft& whole) {
+    visit(inner, {"drawn", "", anyValue, "false leaves fire and smoke out of the picture"},
+          whole.scene.render.volume.drawn);
+    describeLattice(inner, whole.volume, {"vx, vy, vz", "5.1, 5.3"});
+    describeVolumeLook(inner, whole.scene.render.volume);
+  });
+}
+
+}  // namespace brisance

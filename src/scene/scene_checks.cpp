@@ -1,0 +1,171 @@
+#include "scene/scene_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/check.h"
+#include "scene/scene_text.h"
+
+namespace brisance {
+namespace {
+
+std::string shown(const Vec3d& v) { return fmt::format("[{:g}, {:g}, {:g}]", v.x, v.y, v.z); }
+
+void checkFaces(const Scene& scene, const Places& places) {
+  const FluidSettings& gas = scene.simulation.fluid;
+  const ParticleSettings& particles = scene.simulation.particles;
+  const bool sealed = std::find(gas.faces.begin(), gas.faces.end(), FaceKind::open) == gas.faces.end();
+  if (sealed && !gas.removeMeanSource && !particles.charges.empty() && particles.burning.gasPerMass > 0)
+    places.refuse("gas.faces",
+                  "must leave a face open: a charge makes gas and all six faces are walls "
+                  "(or set gas.remove_mean_source = true)");
+}
+
+void checkTemperatures(const Scene& scene, const Places& places) {
+  const FluidSettings& gas = scene.simulation.fluid;
+  if (gas.maximumTemperature <= gas.ambientTemperature)
+    places.refuse("gas.maximum_temperature", fmt::format("must be above gas.ambient_temperature, {} [K], got {}",
+                                                         gas.ambientTemperature, gas.maximumTemperature));
+}
+
+void checkCharge(const Charge& charge, const FluidSettings& gas, const std::string& path, const Places& places) {
+  const Vec3d reach(charge.radius, charge.radius, charge.radius);
+  const Box3 box{gas.corner, gas.corner + Vec3d(gas.cells) * gas.cellSize};
+  if (!box.contains(charge.position - reach) || !box.contains(charge.position + reach))
+    places.refuse(path + ".position",
+                  fmt::format("must lie with its radius {:g} inside the gas box {} to {} [m], got {}", charge.radius,
+                              shown(box.lower), shown(box.upper), shown(charge.position)));
+  if (charge.ignited > charge.particles)
+    places.refuse(path + ".ignited",
+                  fmt::format("must be at most particles, {}, got {}", charge.particles, charge.ignited));
+}
+
+/// Emission at a rate for a long time, or a fine soot threshold, would make particles without end.
+void checkParticleCount(const Scene& scene, const Places& places) {
+  constexpr double mostSoot = 1e4;     // per fuel particle: far finer than a picture shows
+  constexpr double mostEmitted = 1e8;  // of one charge: what fits the memory of a large machine
+  const BurnSettings& burning = scene.simulation.particles.burning;
+  const double leastThreshold = burning.mass * burning.sootPerMass / mostSoot;
+  if (!burning.sootOnce && burning.sootThreshold < leastThreshold)
+    places.refuse(
+        "explosion.soot_threshold",
+        fmt::format("must be at least {:g} [kg], so that a fuel particle makes at most {} soot particles, got {:g}",
+                    leastThreshold, mostSoot, burning.sootThreshold));
+  const std::vector<Charge>& charges = scene.simulation.particles.charges;
+  for (std::size_t i = 0; i < charges.size(); ++i)
+    if (charges[i].emissionRate * charges[i].emissionTime > mostEmitted)
+      places.refuse(fmt::format("explosion.charges.{}.emission_rate", i),
+                    fmt::format("must make at most {:g} particles in emission_time, {:g} [s], got {:g}", mostEmitted,
+                                charges[i].emissionTime, charges[i].emissionRate));
+}
+
+void checkName(const std::string& name, const std::string& path, const Places& places) {
+  constexpr std::size_t longestName = 100;
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  if (!plain || name.size() > longestName)
+    places.refuse(path + ".name",
+                  fmt::format("must be at most {} letters, digits, _ and -, got \"{}\"", longestName, quoted(name)));
+}
+
+/// Triangles of a shape where they are known before it is made; fewer pieces than that come out of it.
+int knownTriangles(const Shape& shape) {
+  constexpr int boxTriangles = 12, rectangleTriangles = 2;
+  if (const auto* pane = std::get_if<PaneSettings>(&shape)) return rectangleTriangles + 2 * pane->points;
+  if (std::holds_alternative<BoxShape>(shape)) return boxTriangles;
+  return std::numeric_limits<int>::max();
+}
+
+void checkBody(const BodySettings& body, const std::string& path, const Places& places) {
+  checkName(body.name, path, places);
+  const bool rectangle = std::holds_alternative<RectangleShape>(body.shape);
+  if (rectangle && body.moves) places.refuse(path + ".moves", "must be false: a rectangle is scenery");
+  if (body.blocksGas && (body.moves || rectangle))
+    places.refuse(path + ".blocks_gas", "must be false: only solid scenery (moves = false, no rectangle) blocks gas");
+  const int pieces = body.fracture.pieces;
+  if (pieces > 1 && !body.moves)
+    places.refuse(path + ".fracture.pieces", fmt::format("must be 1: scenery stays whole, got {}", pieces));
+  if (pieces > knownTriangles(body.shape))
+    places.refuse(path + ".fracture.pieces", fmt::format("must be at most the {} triangles of the shape, got {}",
+                                                         knownTriangles(body.shape), pieces));
+}
+
+void checkBodies(const Scene& scene, const Places& places) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < scene.simulation.bodies.size(); ++i) {
+    const BodySettings& body = scene.simulation.bodies[i];
+    const std::string path = places.elementPath("bodies", body.name, i);
+    checkBody(body, path, places);
+    if (!names.insert(body.name).second)
+      places.refuse(path + ".name", fmt::format("must be unique, \"{}\" is there twice", body.name));
+    if (scene.render.materials.count(body.material) != 0) continue;
+    std::vector<std::string> known;
+    for (const auto& [name, material] : scene.render.materials) known.push_back(name);
+    places.refuse(path + ".material", fmt::format("must name one of the materials ({}), got \"{}\"",
+                                                  quoted(joined(known, ", ")), quoted(body.material)));
+  }
+}
+
+void checkPicture(const Scene& scene, const Places& places) {
+  const VolumeSettings& volume = scene.render.volume;
+  if (volume.minDensity >= volume.maxDensity)
+    places.refuse("render.volume.min_density",
+                  fmt::format("must be below max_density, {}, got {}", volume.maxDensity, volume.minDensity));
+  if (volume.filterSize != 0 && volume.filterSize % 2 == 0)
+    places.refuse("render.volume.filter_size",
+                  fmt::format("must be odd, or 0 for three deviations, got {}", volume.filterSize));
+  for (std::size_t i = 0; i < scene.render.lights.size(); ++i) {
+    const auto* sun = std::get_if<SunLight>(&scene.render.lights[i]);
+    if (sun != nullptr && length(sun->direction) == 0)
+      places.refuse(fmt::format("lights.{}.direction", i), "must not be zero");
+  }
+}
+
+}  // namespace
+
+std::string Places::of(std::string path) const {
+  for (;;) {
+    const auto found = lines.find(path);
+    if (found != lines.end()) return found->second;
+    const std::size_t dot = path.rfind('.');
+    if (path.empty()) return "scene";
+    path = dot == std::string::npos ? "" : path.substr(0, dot);
+  }
+}
+
+std::string Places::elementPath(const std::string& array, const std::string& name, std::size_t index) const {
+  const std::string named = array + "." + name, numbered = fmt::format("{}.{}", array, index);
+  const auto byName = lines.find(named), byNumber = lines.find(numbered);
+  const bool same = byName != lines.end() && byNumber != lines.end() && byName->second == byNumber->second;
+  return same ? named : numbered;
+}
+
+void Places::refuse(const std::string& path, const std::string& what) const {
+  throw InputError(fmt::format("{}: {}: {}", of(path), path, what));
+}
+
+void collectInputs(Scene& scene) {
+  const auto add = [&](const std::filesystem::path& file) {
+    if (std::find(scene.inputs.begin(), scene.inputs.end(), file) == scene.inputs.end()) scene.inputs.push_back(file);
+  };
+  for (const BodySettings& body : scene.simulation.bodies)
+    if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) add(mesh->file);
+  for (const auto& [name, material] : scene.render.materials)
+    if (const auto* image = std::get_if<ImageTexture>(&material.diffuse)) add(image->file);
+}
+
+void checkTogether(const Scene& scene, const Places& places) {
+  checkFaces(scene, places);
+  checkTemperatures(scene, places);
+  const std::vector<Charge>& charges = scene.simulation.particles.charges;
+  for (std::size_t i = 0; i < charges.size(); ++i)
+    checkCharge(charges[i], scene.simulation.fluid, fmt::format("explosion.charges.{}", i), places);
+  checkParticleCount(scene, places);
+  checkBodies(scene, places);
+  checkPicture(scene, places);
+}
+
+}  // namespace brisance

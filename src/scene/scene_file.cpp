@@ -1,0 +1,55 @@
+#include "scene/scene_file.h"
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+#include "base/durable_file.h"
+#include "scene/estimate.h"
+#include "scene/scene_draft.h"
+#include "scene/scene_reader.h"
+
+namespace brisance {
+namespace {
+
+std::string readSceneText(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    throw InputError(fmt::format("{}: must be a scene file, and there is no such file", file.string()));
+  return readFile(file);
+}
+
+std::filesystem::path movedPath(const std::map<std::filesystem::path, std::filesystem::path>& places,
+                                const std::filesystem::path& file) {
+  const auto found = places.find(file);
+  return found == places.end() ? file : found->second;
+}
+
+}  // namespace
+
+Scene parseScene(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<std::string>& overrides) {
+  SceneNode root = parseToml(text, file.string());
+  for (const std::string& assignment : overrides) applyOverride(root, assignment);
+  const std::filesystem::path directory = std::filesystem::absolute(file).parent_path();
+  const SceneDraft draft = readDraft(root, directory);  // first: it bounds what the rest has to walk
+  Scene scene = resolve(draft, placesOf(root));
+  requireMemory(scene, file.string());
+  return scene;
+}
+
+Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return parseScene(readSceneText(file), file, overrides);
+}
+
+std::string writeScene(const Scene& scene) { return writeToml(writeDraft(draftOf(scene))); }
+
+Scene withInputs(Scene scene, const std::map<std::filesystem::path, std::filesystem::path>& places) {
+  for (BodySettings& body : scene.simulation.bodies)
+    if (auto* mesh = std::get_if<MeshShape>(&body.shape)) mesh->file = movedPath(places, mesh->file);
+  for (auto& [name, material] : scene.render.materials)
+    if (auto* image = std::get_if<ImageTexture>(&material.diffuse)) image->file = movedPath(places, image->file);
+  for (std::filesystem::path& input : scene.inputs) input = movedPath(places, input);
+  return scene;
+}
+
+}  // namespace brisance

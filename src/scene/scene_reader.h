@@ -1,0 +1,18 @@
+// Fills a draft from a tree, by the declarations of the keys.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene_draft.h"
+#include "scene/scene_text.h"
+
+namespace brisance {
+
+/// Throws InputError "PLACE: table.key: what is wrong, what would be right, got X". Relative files become absolute from
+/// `directory`.
+SceneDraft readDraft(const SceneNode& root, const std::filesystem::path& directory);
+
+/// The tree with every key of a draft.
+SceneNode writeDraft(SceneDraft draft);
+
+}  // namespace brisance

@@ -1,0 +1,234 @@
+// The tables of the simulation: gas, explosion, rigid bodies.
+#include "scene/scene_keys.h"
+
+namespace brisance {
+namespace {
+
+constexpr std::string_view faceNames[] = {"open", "no_slip", "free_slip"};
+constexpr const char* faceKeys[] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
+constexpr std::string_view advectionNames[] = {"donor_cell"};
+constexpr std::string_view pressureNames[] = {"conjugate_gradient"};
+constexpr std::string_view quadratureNames[] = {"area_quadrature", "vertex_sum"};
+constexpr std::string_view shapeNames[] = {"sphere", "box", "rectangle", "mesh", "pane"};
+constexpr std::string_view triangulationNames[] = {"trisection", "delaunay"};
+constexpr std::string_view fractureNames[] = {"breadth_first"};
+
+void describeFaces(KeyVisitor& v, Faces& faces) {
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    visitChoice(v, {faceKeys[i], "", anyValue, "open lets gas through; no_slip and free_slip are walls"}, faceNames,
+                faces[i]);
+}
+
+void describeAdvection(KeyVisitor& v, DonorCell& scheme) {
+  visit(v, {"upwind_weight", "", between(0, 1), "0 is central, 1 upwind differences"}, scheme.upwindWeight);
+}
+
+void describePressure(KeyVisitor& v, ConjugateGradient& solver) {
+  visit(v, {"tolerance", "", {1e-14, 0.1}, "residual relative to the right-hand side at which it stops"},
+        solver.tolerance);
+  visit(v, {"max_iterations", "", between(1, 1e6), "after which it gives up and says so"}, solver.maxIterations);
+}
+
+void describeGasPhysics(KeyVisitor& v, FluidSettings& gas) {
+  visit(v, {"viscosity", "m2/s", atLeast(0), "kinematic viscosity, 1/Re of the thesis", {"Re", "2.2"}}, gas.viscosity);
+  visit(v, {"conductivity", "m2/s", atLeast(0), "thermal diffusivity", {"c_k", "2.2, 5.1, 5.3"}}, gas.conductivity);
+  visit(
+      v,
+      {"cooling_rate", "K/s", atLeast(0), "cooling by radiation at the maximum temperature", {"c_r", "2.2, 5.1, 5.3"}},
+      gas.coolingRate);
+  visit(v, {"ambient_temperature", "K", atLeast(0), "of the surroundings", {"T_a", "2.2, 5.1, 5.3"}},
+        gas.ambientTemperature);
+  visit(v, {"maximum_temperature", "K", above(0), "scale of the cooling term, not a cap", {"T_max", "2.2, 5.1, 5.3"}},
+        gas.maximumTemperature);
+  visit(v, {"heat_capacity", "J/(m3 K)", above(0), "of a volume of gas"}, gas.heatCapacity);
+  visit(v, {"force", "m/s2", anyValue, "on all gas alike", {"g_x, g_y, g_z", "2.2"}}, gas.force);
+  visit(v, {"buoyancy", "m/(s2 K)", atLeast(0), "upward acceleration per kelvin above ambient"}, gas.buoyancy);
+  visit(v, {"vorticity_confinement", "", atLeast(0), "how much of the whirls that the grid damps is given back"},
+        gas.vorticityConfinement);
+  visit(v, {"flame_lifetime", "s", above(0), "over which the flame fades to 1/e"}, gas.flameLifetime);
+  visit(v, {"wind", "m/s", anyValue, "of the air outside and, at first, inside"}, gas.wind);
+  visit(v, {"start_velocity", "m/s", atLeast(0), "deviation of random start velocities, which break symmetry"},
+        gas.startVelocity);
+}
+
+void describeBurning(KeyVisitor& v, BurnSettings& burning) {
+  visit(v, {"mass", "kg", above(0), "of a fresh fuel particle", {"m", "2.1, 5.1, 5.3"}}, burning.mass);
+  visit(v, {"radius", "m", above(0), "of a particle, in drag and heating", {"r", "2.1"}}, burning.radius);
+  visit(v, {"burn_rate", "kg/s", above(0), "fuel that a burning particle consumes", {"z_f", "5.1, 5.3"}},
+        burning.burnRate);
+  visit(v, {"soot_burn_rate", "kg/s", atLeast(0), "mass that a soot particle loses", {"z_s", "5.1, 5.3"}},
+        burning.sootBurnRate);
+  visit(v, {"heat_per_mass", "J/kg", atLeast(0), "released by burning", {"b_h", "5.1, 5.3"}}, burning.heatPerMass);
+  visit(v, {"gas_per_mass", "m3/kg", atLeast(0), "volume released by burning", {"b_g", "5.1, 5.3"}},
+        burning.gasPerMass);
+  visit(v, {"soot_per_mass", "kg/kg", atLeast(0), "soot made by burning", {"b_s", "5.1, 5.3"}}, burning.sootPerMass);
+  visit(v, {"soot_threshold", "kg", above(0), "gathered soot that becomes a particle", {"c_soot", "5.1, 5.3"}},
+        burning.sootThreshold);
+  visit(v, {"soot_once", "", anyValue, "at most one soot particle per fuel particle, as in the thesis"},
+        burning.sootOnce);
+}
+
+void describeSootAndHeat(KeyVisitor& v, BurnSettings& burning) {
+  visit(v, {"soot_position_spread", "m", atLeast(0), "deviation of where soot starts from its fuel particle"},
+        burning.sootPositionSpread);
+  visit(v, {"soot_velocity_spread", "", atLeast(0), "deviation of its start velocity, relative to the fuel particle's"},
+        burning.sootVelocitySpread);
+  visit(v, {"thermal_mass", "J/K", above(0), "of a particle", {"c_m", "2.1, 5.1, 5.3"}}, burning.thermalMass);
+  visit(v, {"heating", "W/(m2 K)", atLeast(0), "heat exchange of particle and gas", {"alpha_h", "5.1, 5.3"}},
+        burning.heating);
+  visit(v, {"drag", "kg/m3", atLeast(0), "of the gas on a particle", {"alpha_d", "5.1, 5.3"}}, burning.drag);
+  visit(v, {"ignition_temperature", "K", atLeast(0), "above which fuel burns", {"T_i", "2.1, 5.1, 5.3"}},
+        burning.ignitionTemperature);
+  visit(v, {"fuel_mass_threshold", "kg", atLeast(0), "lighter fuel is gone", {"thres_mf", "5.1, 5.3"}},
+        burning.fuelMassThreshold);
+  visit(
+      v,
+      {"soot_mass_threshold", "kg", atLeast(0), "lighter soot moves with the gas or is gone", {"thres_ms", "5.1, 5.3"}},
+      burning.sootMassThreshold);
+  visit(v,
+        {"thermal_mass_threshold",
+         "J/K",
+         atLeast(0),
+         "below it a particle has the gas' temperature",
+         {"thres_cm", "5.1, 5.3"}},
+        burning.thermalMassThreshold);
+  visit(v, {"deposit_radius", "m", above(0), "of the kernel that spreads heat and gas, the same on every grid"},
+        burning.depositRadius);
+}
+
+void describeCharge(KeyVisitor& v, Charge& charge) {
+  constexpr double mostParticles = 1e8;
+  visit(v, {"position", "m", anyValue, "of the detonation", {"pos_det", "5.1, 5.3"}}, charge.position);
+  visit(v, {"radius", "m", atLeast(0), "of the sphere on which fuel is laid out", {"r_d", "5.1, 5.3"}}, charge.radius);
+  visit(v, {"time", "s", atLeast(0), "of the detonation, simulated time"}, charge.time);
+  visit(v, {"particles", "", between(0, mostParticles), "of fuel at that time", {"n_p", "5.1, 5.3"}}, charge.particles);
+  visit(v, {"ignited", "", between(0, mostParticles), "of them that burn from the start", {"np_i", "5.1, 5.3"}},
+        charge.ignited);
+  visit(v, {"emission_rate", "1/s", between(0, mostParticles), "new fuel particles afterwards", {"np_it", "5.1, 5.3"}},
+        charge.emissionRate);
+  visit(v, {"emission_time", "s", atLeast(0), "for how long they come, simulated time"}, charge.emissionTime);
+}
+
+struct ShapeKeys {
+  void operator()(KeyVisitor& v, SphereShape& sphere) const {
+    visit(v, {"radius", "m", above(0), "of the sphere"}, sphere.radius);
+  }
+  void operator()(KeyVisitor& v, BoxShape& box) const {
+    visit(v, {"size", "m", above(0), "along x, y, z"}, box.size);
+    visit(v, {"uv_repeat", "", above(0), "how often a texture repeats over a face"}, box.uvRepeat);
+  }
+  void operator()(KeyVisitor& v, RectangleShape& rectangle) const {
+    visit(v, {"width", "m", above(0), "along x"}, rectangle.width);
+    visit(v, {"height", "m", above(0), "along y; it faces +z"}, rectangle.height);
+    visit(v, {"uv_repeat", "", above(0), "how often a texture repeats"}, rectangle.uvRepeat);
+  }
+  void operator()(KeyVisitor& v, MeshShape& mesh) const {
+    Key file{"file", "", anyValue, "Wavefront OBJ, relative to the scene file"};
+    file.required = true;
+    visit(v, file, mesh.file);
+    visit(v, {"scale", "m", above(0), "length of one unit of the file"}, mesh.scale);
+    visit(v, {"shell_thickness", "m", above(0), "of the wall of open pieces, for their mass"}, mesh.shellThickness);
+  }
+  void operator()(KeyVisitor& v, PaneSettings& pane) const {
+    visit(v, {"width", "m", above(0), "along x"}, pane.width);
+    visit(v, {"height", "m", above(0), "along y"}, pane.height);
+    visit(v, {"thickness", "m", above(0), "along z"}, pane.thickness);
+    visit(v, {"points", "", between(0, 1e6), "inside the pane, which become corners of shards"}, pane.points);
+    visitType(v, {"triangulation", "", anyValue, "trisection gives splinters, delaunay even shards"},
+              triangulationNames, pane.triangulation);
+  }
+};
+
+void describeBodyPlace(KeyVisitor& v, BodyKeys& keys) {
+  visit(v, {"position", "m", anyValue, "of the shape's origin", {"pos (body)", "3.1"}}, keys.body.pose.position);
+  visit(v,
+        {"rotation_degrees",
+         "degrees",
+         anyValue,
+         "about the x, then y, then z axis of the scene",
+         {"alpha (body)", "3.1"},
+         "no rotation"},
+        keys.rotationDegrees);
+  visit(v, {"orientation", "", anyValue, "quaternion w, x, y, z, in place of rotation_degrees", {}, "no rotation"},
+        keys.orientation);
+  visit(v, {"moves", "", anyValue, "false for scenery", {}, "true; false for a rectangle"}, keys.moves);
+  visit(v, {"blocks_gas", "", anyValue, "scenery that gas flows around"}, keys.body.blocksGas);
+  visit(v, {"release_time", "s", atLeast(0), "until then it rests in place; simulated time"}, keys.body.releaseTime);
+}
+
+void describeBodyMass(KeyVisitor& v, BodyKeys& keys) {
+  visit(v,
+        {"density",
+         "kg/m3",
+         above(0),
+         "mass by volume; one of density, mass and mass_per_area",
+         {},
+         "2500, unless mass or mass_per_area is written"},
+        keys.density);
+  visit(v, {"mass", "kg", above(0), "of the whole body, shared out by volume", {"m (body)", "3.1"}, "from density"},
+        keys.mass);
+  visit(v, {"mass_per_area", "kg/m2", above(0), "mass by surface, as the thesis' windows have it", {}, "from density"},
+        keys.massPerArea);
+}
+
+}  // namespace
+
+void describeGas(KeyVisitor& v, SceneDraft& draft) {
+  FluidSettings& gas = draft.scene.simulation.fluid;
+  describeLattice(v, draft.gas, {"nx, ny, nz", "5.1, 5.3"});
+  visitTable(v, "faces", "what the faces of the box are", gas.faces, describeFaces);
+  visit(v, {"remove_mean_source", "", anyValue, "with all faces walled: let the gas that has no way out vanish"},
+        gas.removeMeanSource);
+  v.enter({"advection", "", anyValue, "how the flow carries things"}, true);
+  visitAlternatives(v, advectionNames, gas.advection, describeAdvection);
+  v.leave();
+  v.enter({"pressure", "", anyValue, "how the pressure is solved for"}, true);
+  visitAlternatives(v, pressureNames, gas.pressure, describePressure);
+  v.leave();
+  describeGasPhysics(v, gas);
+  visit(v, {"courant", "", {0.01, 10}, "cells that the gas may cross in one sub-step"}, gas.courant);
+  visit(v, {"max_substeps", "", between(1, 1e6), "per frame, beyond which the run stops as unstable"}, gas.maxSubsteps);
+}
+
+void describeExplosion(KeyVisitor& v, ParticleSettings& particles) {
+  describeBurning(v, particles.burning);
+  describeSootAndHeat(v, particles.burning);
+  visitArray(v, {"charges", "", anyValue, "fuel laid out on a sphere at a time"}, particles.charges, Charge{},
+             describeCharge);
+}
+
+void describeRigid(KeyVisitor& v, RigidSettings& rigid) {
+  visit(v, {"gravity", "m/s2", anyValue, "on bodies"}, rigid.gravity);
+  visitTable(v, "push", "how gas pushes bodies", rigid.push, [](KeyVisitor& inner, GasPush& push) {
+    visit(inner, {"force_constant", "kg/m3", atLeast(0), "force per area = this |dv| dv", {"F_c", "5.1, 5.3"}},
+          push.forceConstant);
+    visitType(inner, {"quadrature", "", anyValue, "vertex_sum is the thesis' choice: finer meshes are pushed harder"},
+              quadratureNames, push.quadrature);
+    visit(inner, {"parallel_only", "", anyValue, "the thesis' choice: only the force along the arm accelerates"},
+          push.parallelOnly);
+    visit(inner, {"small_piece_favour", "", between(0, 10), "force times (mean area / area) to this power"},
+          push.smallPieceFavour);
+  });
+}
+
+void describeBody(KeyVisitor& v, BodyKeys& keys) {
+  Key name{"name", "", anyValue, "unique; letters, digits, _ and -"};
+  name.required = true;
+  visit(v, name, keys.body.name);
+  Key shape{"shape", "", anyValue, "what it is"};
+  shape.required = true;
+  v.enter(shape, true);
+  visitAlternatives(v, shapeNames, keys.body.shape, ShapeKeys{});
+  v.leave();
+  describeBodyPlace(v, keys);
+  visit(v, {"material", "", anyValue, "name of one of the materials"}, keys.body.material);
+  describeBodyMass(v, keys);
+  visit(v, {"temperature", "K", atLeast(0), "of the body"}, keys.body.temperature);
+  visitTable(v, "fracture", "how it breaks, before time starts", keys.body.fracture,
+             [](KeyVisitor& inner, FractureSettings& fracture) {
+               visitType(inner, {"method", "", anyValue, "how pieces are chosen"}, fractureNames, fracture.method);
+               visit(inner, {"pieces", "", between(1, 1e5), "1 leaves it whole", {"n_r", "5.1, 5.3"}}, fracture.pieces);
+             });
+}
+
+}  // namespace brisance
