@@ -8,7 +8,8 @@
 namespace brisance {
 namespace {
 
-/// A light's I_s is its irradiance over pi; a share of 1/(4 pi) of what is scattered alike in all directions goes each way.
+/// A light's I_s is its irradiance over pi; a share of 1/(4 pi) of what is scattered alike in all directions goes each
+/// way.
 constexpr float isotropicShare = 0.25f;
 
 /// Whether a place between block centres may read block (i, j, k) for gas: it or a neighbour holds some.
@@ -41,14 +42,17 @@ Vec3f GasMedium::arriving(const Vec3f& place, const Vec3f& ambientLight, const s
 
 void GasMedium::illuminate(const Vec3f& ambientLight, const std::vector<LightSource>& lights) {
   const Grid3<float>& largest = blockLargest_;
-  parallelFor(0, static_cast<std::int64_t>(largest.size.y) * largest.size.z, 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t row = first; row < last; ++row)
-      for (int i = 0; i < largest.size.x; ++i) {
-        const int j = static_cast<int>(row % largest.size.y), k = static_cast<int>(row / largest.size.y);
-        if (isRead(largest, i, j, k))
-          blockScattered_(i, j, k) = optics_.scattered(arriving(Vec3f(largest.position(i, j, k)), ambientLight, lights));
-      }
-  });
+  parallelFor(0, static_cast<std::int64_t>(largest.size.y) * largest.size.z, 1,
+              [&](std::int64_t first, std::int64_t last) {
+                for (std::int64_t row = first; row < last; ++row)
+                  for (int i = 0; i < largest.size.x; ++i) {
+                    const int j = static_cast<int>(row % largest.size.y), k = static_cast<int>(row / largest.size.y);
+                    if (isRead(largest, i, j, k))
+                      blockScattered_(i, j, k) =
+                          optics_.scattered(arriving(Vec3f(largest.position(i, j, k)), ambientLight, lights));
+                  }
+              });
+  bakeScattered();
 }
 
 }  // namespace brisance

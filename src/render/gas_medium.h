@@ -40,12 +40,14 @@ class GasOptics {
 
 struct LightSource;
 
-/// A sample of the gas as one vector of the processor: density times colour, and the density.
+/// A sample of the gas as one vector of the processor: density times light, and the density.
 struct GasSample {
   using Vector [[gnu::vector_size(16)]] = float;
   Vector values;
   float density() const { return values[3]; }
-  Vec3f colour() const { return Vec3f(values[0], values[1], values[2]) / values[3]; }  ///< where there is density
+  Vec3f light() const {
+    return Vec3f(values[0], values[1], values[2]) / values[3];
+  }  ///< I of equation A.4, where there is density
 };
 
 /// Room for samples, used again from frame to frame: fresh pages cost more time than the samples in them.
@@ -65,8 +67,8 @@ class GasMedium {
   static SampleMemory memoryOf(GasMedium&& gas) { return std::move(gas.memory_); }
 
   /// What each block scatters, once and alike in all directions: light of the surroundings as much as the gas on six
-  /// sides lets through, and what lights send through the gas before it. Bodies do not shade the gas. Before it is
-  /// called, gas scatters none.
+  /// sides lets through, and what lights send through the gas before it. Bodies do not shade the gas. To be called at
+  /// most once; before it, gas scatters none.
   void illuminate(const Vec3f& ambientLight, const std::vector<LightSource>& lights);
 
   /// Light and opacity added up from front to back (equations A.3 and A.4), ended where the opacity exceeds 0.999:
@@ -87,6 +89,7 @@ class GasMedium {
   GasSample sampleAt(const Vec3f& cells) const;
   void addStep(const Vec3f& place, float stepLength, GasPassage& passage) const;
   void boundOccupied();
+  void bakeScattered();
   bool clip(GasPath& path) const;
 
   Vec3i size_;           ///< [cells]

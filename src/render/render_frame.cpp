@@ -87,8 +87,11 @@ class Exposure {
     const std::size_t when = (jitter_.below(cameras_.size(), pixelNumber) + s) % cameras_.size();
     const Camera& camera = cameras_[when];
     const float time = (static_cast<float>(when) + 0.5f) / static_cast<float>(cameras_.size());
+    // The ways of a pixel through the gas share out a step evenly, from a random start.
+    const double phase =
+        (s + jitter_.uniform(drawsPerSample * pixelNumber * samples_ * samples_ + 2)) / (samples_ * samples_);
     return radiance(world_, {Vec3f(camera.position()), Vec3f(camera.direction(across, down)), 0, time},
-                    static_cast<float>(jitter_.uniform(draw + 2)));
+                    static_cast<float>(phase));
   }
 
   const RayWorld& world_;
