@@ -58,7 +58,6 @@ json asJson(const Balance& balance) {
 void addSeconds(json& stage, const StageSeconds& seconds) {
   for (const auto& [part, value] : seconds)
     stage[part] = (stage.contains(part) ? stage[part].get<double>() : 0.0) + value;
-  for (const auto& [part, value] : seconds) stage[part] = stage.value(part, 0.0) + value;
 }
 
 }  // namespace
