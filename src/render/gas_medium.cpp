@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "base/vector_path.h"
 
 namespace brisance {
 namespace {
@@ -117,11 +118,13 @@ GasMedium::GasMedium(const ParticleVolume& volume, const VolumeSettings& setting
 void GasMedium::pack(const ParticleVolume& volume) {
   constexpr std::int64_t cellsPerPiece = 1 << 16;
   parallelFor(0, volume.density.count(), cellsPerPiece, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t cell = first; cell < last; ++cell) {
-      const float density = volume.density.values[cell];
-      const Vec3f light = optics_.glow(volume.colour.values[cell]) * density;
-      memory_.samples[cell].values = GasSample::Vector{light.x, light.y, light.z, density};
-    }
+    runWide([&] {
+      for (std::int64_t cell = first; cell < last; ++cell) {
+        const float density = volume.density.values[cell];
+        const Vec3f light = optics_.glow(volume.colour.values[cell]) * density;
+        memory_.samples[cell].values = GasSample::Vector{light.x, light.y, light.z, density};
+      }
+    });
   });
 }
 
@@ -234,23 +237,31 @@ void GasMedium::addStep(const Vec3f& place, float stepLength, GasPassage& passag
 void GasMedium::bakeScattered() {
   parallelFor(0, size_.z, 2, [&](std::int64_t first, std::int64_t last) {
     for (int k = static_cast<int>(first); k < last; ++k)
-      for (int j = 0; j < size_.y; ++j)
-        for (int i = 0; i < size_.x; ++i) {
-          if (blockLargest_(i / blockCells, j / blockCells, k / blockCells) <= 0) {
-            i += blockCells - 1 - i % blockCells;
-            continue;
-          }
-          GasSample& sample = memory_.samples[i + size_.x * (j + static_cast<std::int64_t>(size_.y) * k)];
-          if (sample.density() <= 0) continue;
-          const Vec3f light = sampleBlocks(blockScattered_, Vec3f(Vec3i(i, j, k))) * sample.density();
-          sample.values += GasSample::Vector{light.x, light.y, light.z, 0};
-        }
+      for (int j = 0; j < size_.y; ++j) runWide([&] { bakeRow(j, k); });
   });
 }
 
-GasPassage GasMedium::march(const GasPath& wholePath) const {
+void GasMedium::bakeRow(int j, int k) {
+  for (int i = 0; i < size_.x; ++i) {
+    if (blockLargest_(i / blockCells, j / blockCells, k / blockCells) <= 0) {
+      i += blockCells - 1 - i % blockCells;
+      continue;
+    }
+    GasSample& sample = memory_.samples[i + size_.x * (j + static_cast<std::int64_t>(size_.y) * k)];
+    if (sample.density() <= 0) continue;
+    const Vec3f light = sampleBlocks(blockScattered_, Vec3f(Vec3i(i, j, k))) * sample.density();
+    sample.values += GasSample::Vector{light.x, light.y, light.z, 0};
+  }
+}
+
+GasPassage GasMedium::march(const GasPath& path) const {
   GasPassage passage;
-  GasPath path = wholePath;
+  runWide([&] { passage = marchHere(path); });
+  return passage;
+}
+
+GasPassage GasMedium::marchHere(GasPath path) const {
+  GasPassage passage;
   if (!clip(path)) return passage;
   const float perCell = 1 / cellSize_;
   const GridWay way{(path.origin - origin_) * perCell, path.direction * perCell};
@@ -282,8 +293,13 @@ GasPassage GasMedium::march(const GasPath& wholePath) const {
   return passage;
 }
 
-float GasMedium::roughTransmittance(const GasPath& wholePath) const {
-  GasPath path = wholePath;
+float GasMedium::roughTransmittance(const GasPath& path) const {
+  float transmittance = 1;
+  runWide([&] { transmittance = roughTransmittanceHere(path); });
+  return transmittance;
+}
+
+float GasMedium::roughTransmittanceHere(GasPath path) const {
   if (!clip(path)) return 1;
   const auto block = static_cast<float>(blockExtinction_.cellSize);
   const int steps = static_cast<int>(std::ceil((path.far - path.near) / block));

@@ -90,6 +90,10 @@ class GasMedium {
   void addStep(const Vec3f& place, float stepLength, GasPassage& passage) const;
   void boundOccupied();
   void bakeScattered();
+  void bakeRow(int j, int k);
+  // The loops themselves, compiled for the processor at hand by their callers.
+  GasPassage marchHere(GasPath path) const;
+  float roughTransmittanceHere(GasPath path) const;
   bool clip(GasPath& path) const;
 
   Vec3i size_;           ///< [cells]

@@ -75,7 +75,7 @@ std::vector<ThesisVariable> thesisVariables() {
           {{"w", "2.2"}, "FluidState velocity.w; likewise"},
           {{"vel (body)", "3.1"}, "RigidBodies linearVelocity; starts at rest"},
           {{"omega", "3.1"}, "RigidBodies angularVelocity; starts at rest"},
-          {{"I", "3.1"}, "RigidBodies inverseInertia, from the shape and the mass"},
+          {{"I", "3.1"}, "RigidBodies inertia, from the shape and the mass"},
           {{"n_v", "3.1"}, "number of vertices of the body's mesh, from bodies.shape"},
           {{"verts", "3.1"}, "the body's mesh, from bodies.shape"}};
 }
