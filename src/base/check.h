@@ -1,4 +1,5 @@
-// Three kinds of trouble: the user's (an Error with its exit code), the numbers' (returned in reports), and ours (CHECK).
+// Three kinds of trouble: the user's (an Error with its exit code), the numbers' (returned in reports), and ours
+// (CHECK).
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// Small vectors, quaternions and matrices, and the few transcendental functions whose bits the simulation's state depends on.
+// Small vectors, quaternions and matrices, and the few transcendental functions whose bits the simulation's state
+// depends on.
 #pragma once
 
 #include <algorithm>
@@ -101,7 +102,9 @@ struct Mat3 {
   friend bool operator==(const Mat3& a, const Mat3& b) {
     return a.row[0] == b.row[0] && a.row[1] == b.row[1] && a.row[2] == b.row[2];
   }
-  friend Vec3d operator*(const Mat3& m, const Vec3d& v) { return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)}; }
+  friend Vec3d operator*(const Mat3& m, const Vec3d& v) {
+    return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)};
+  }
   friend Mat3 operator*(const Mat3& a, const Mat3& b) {
     const Mat3 t = transpose(b);
     Mat3 r;
@@ -116,13 +119,16 @@ struct Mat3 {
     return {{a.row[0] + b.row[0], a.row[1] + b.row[1], a.row[2] + b.row[2]}};
   }
   friend Mat3 transpose(const Mat3& m) {
-    return {{{m.row[0].x, m.row[1].x, m.row[2].x}, {m.row[0].y, m.row[1].y, m.row[2].y}, {m.row[0].z, m.row[1].z, m.row[2].z}}};
+    return {{{m.row[0].x, m.row[1].x, m.row[2].x},
+             {m.row[0].y, m.row[1].y, m.row[2].y},
+             {m.row[0].z, m.row[1].z, m.row[2].z}}};
   }
   friend double determinant(const Mat3& m) { return dot(m.row[0], cross(m.row[1], m.row[2])); }
   /// Inverse; the caller knows that the determinant is not zero.
   friend Mat3 inverse(const Mat3& m) {
     const double d = determinant(m);
-    return transpose(Mat3{{cross(m.row[1], m.row[2]) / d, cross(m.row[2], m.row[0]) / d, cross(m.row[0], m.row[1]) / d}});
+    return transpose(
+        Mat3{{cross(m.row[1], m.row[2]) / d, cross(m.row[2], m.row[0]) / d, cross(m.row[0], m.row[1]) / d}});
   }
 };
 
@@ -157,8 +163,8 @@ struct Pose {
   friend Vec3d operator*(const Pose& pose, const Vec3d& p) { return rotate(pose.orientation, p) + pose.position; }
 };
 
-/// exp, log and sine/cosine in double from +, -, *, / alone: the same bits on every processor, where the C library picks
-/// variants with fused multiply-add by what it runs on. Relative error below 1e-15.
+/// exp, log and sine/cosine in double from +, -, *, / alone: the same bits on every processor, where the C library
+/// picks variants with fused multiply-add by what it runs on. Relative error below 1e-15.
 double portableExp(double x);
 double portableLog(double x);  ///< of x > 0
 struct SinCos {

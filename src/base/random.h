@@ -22,7 +22,8 @@ enum class Stream : std::uint64_t {
 
 class Random {
  public:
-  Random(std::uint64_t seed, Stream stream) : key_(mix(seed + 0x9E3779B97F4A7C15u * mix(static_cast<std::uint64_t>(stream)))) {}
+  Random(std::uint64_t seed, Stream stream)
+      : key_(mix(seed + 0x9E3779B97F4A7C15u * mix(static_cast<std::uint64_t>(stream)))) {}
 
   /// 64 random bits (SplitMix64 finaliser: Steele, Lea & Flood 2014).
   std::uint64_t bits(std::uint64_t index) const { return mix(key_ ^ mix(index + 0x9E3779B97F4A7C15u)); }

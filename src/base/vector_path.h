@@ -6,15 +6,16 @@ namespace brisance {
 
 enum class VectorPath { plain, avx2, avx512 };
 
-/// The widest path that this processor runs, or a narrower one set by forceVectorPath or BRISANCE_VECTOR=plain|avx2|avx512.
+/// The widest path that this processor runs, or a narrower one set by forceVectorPath or
+/// BRISANCE_VECTOR=plain|avx2|avx512.
 VectorPath vectorPath();
 /// For tests: use `path` if the processor has it, else the widest below it.
 void forceVectorPath(VectorPath path);
 
 namespace detail {
 template <class Body>
-[[gnu::flatten, gnu::noinline, gnu::target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")]] void runAvx512(
-    const Body& body) {
+[[gnu::flatten, gnu::noinline, gnu::target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")]] void
+runAvx512(const Body& body) {
   body();
 }
 template <class Body>
@@ -27,9 +28,12 @@ template <class Body>
 template <class Body>
 void runWide(const Body& body) {
   switch (vectorPath()) {
-    case VectorPath::avx512: return detail::runAvx512(body);
-    case VectorPath::avx2: return detail::runAvx2(body);
-    case VectorPath::plain: return body();
+    case VectorPath::avx512:
+      return detail::runAvx512(body);
+    case VectorPath::avx2:
+      return detail::runAvx2(body);
+    case VectorPath::plain:
+      return body();
   }
 }
 

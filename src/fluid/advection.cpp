@@ -12,7 +12,9 @@ struct Row {
   std::int64_t dy, dz;
 };
 
-Row rowOf(const PaddedGrid& grid, int j, int k) { return {grid.row(j, k), grid.values.stride(1), grid.values.stride(2)}; }
+Row rowOf(const PaddedGrid& grid, int j, int k) {
+  return {grid.row(j, k), grid.values.stride(1), grid.values.stride(2)};
+}
 
 /// The same row seen along another set of axes: `step[a]` is the distance to the next sample along axis a.
 struct Steps {
@@ -27,7 +29,8 @@ struct RowTask {
 };
 
 /// Legend: U the component along `axis` whose row is updated, W the component that carries it along another axis.
-/// The control volume of a face reaches from centre to centre of its two cells; its side faces carry the mean of W there.
+/// The control volume of a face reaches from centre to centre of its two cells; its side faces carry the mean of W
+/// there.
 void advectRow(const RowTask& task, const Steps& U, const Steps (&W)[3], float* out, const float* open, int count) {
   for (int i = 0; i < count; ++i) {
     const float u = U.at[i];
@@ -55,7 +58,8 @@ void advectRow(const RowTask& task, const Steps& U, const Steps (&W)[3], float* 
 
 double donorWeight(const FluidSettings& settings) { return std::get<DonorCell>(settings.advection).upwindWeight; }
 
-void advectComponent(int axis, const FluidState& gas, const FluidSettings& settings, double dt, AdvectionScratch& scratch) {
+void advectComponent(int axis, const FluidState& gas, const FluidSettings& settings, double dt,
+                     AdvectionScratch& scratch) {
   const PaddedVelocity& padded = scratch.velocity;
   Grid3<float>& out = scratch.newVelocity.component(axis);
   const Grid3<float>& open = gas.solid.openShare.component(axis);
@@ -99,7 +103,12 @@ void advectScalarRow(const ScalarRow& row, float dtOverH, float upwind, float* o
 ScalarRow scalarRow(const FluidState& gas, const PaddedGrid& padded, int j, int k) {
   const auto at = [](const Grid3<float>& g, int jj, int kk) { return g.values.data() + g.index(0, jj, kk); };
   const MacVelocity& m = gas.velocity;
-  return {at(m.u, j, k), at(m.v, j, k), at(m.v, j + 1, k), at(m.w, j, k), at(m.w, j, k + 1), stepsOf(rowOf(padded, j, k)),
+  return {at(m.u, j, k),
+          at(m.v, j, k),
+          at(m.v, j + 1, k),
+          at(m.w, j, k),
+          at(m.w, j, k + 1),
+          stepsOf(rowOf(padded, j, k)),
           gas.solid.inside.values.data() + gas.solid.inside.index(0, j, k)};
 }
 
@@ -112,8 +121,8 @@ double createdContent(const Grid3<float>& scalar, const FluidState& gas, float a
       for (int j = 0; j < scalar.size.y; ++j)
         for (int i = 0; i < scalar.size.x; ++i) {
           if (gas.solid.inside(i, j, k)) continue;
-          const double divergence = (m.u(i + 1, j, k) - m.u(i, j, k)) + (m.v(i, j + 1, k) - m.v(i, j, k)) +
-                                    (m.w(i, j, k + 1) - m.w(i, j, k));
+          const double divergence =
+              (m.u(i + 1, j, k) - m.u(i, j, k)) + (m.v(i, j + 1, k) - m.v(i, j, k)) + (m.w(i, j, k + 1) - m.w(i, j, k));
           sum += (scalar(i, j, k) - ambient) * divergence;
         }
     return sum;
@@ -150,8 +159,8 @@ void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, A
   std::swap(gas.velocity, scratch.newVelocity);
 }
 
-Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient, double dt,
-                     AdvectionScratch& scratch) {
+Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient,
+                     double dt, AdvectionScratch& scratch) {
   padScalar(scratch.scalar, scalar, gas.velocity, ambient);
   scratch.newScalar = scalar;
   const float upwind = static_cast<float>(donorWeight(settings)), dtOverH = static_cast<float>(dt / settings.cellSize);

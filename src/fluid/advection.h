@@ -25,9 +25,9 @@ struct AdvectionScratch {
 /// Transports all velocity components over dt [s], and diffuses them by the viscosity; closed faces keep their speed.
 void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, AdvectionScratch& scratch);
 
-/// Transports a scalar over dt [s]; what comes in through open faces is `ambient`. Returns the balance of (scalar - ambient)
-/// over the box, in scalar units x m3: `in` by created gas, `out` through open faces.
-Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient, double dt,
-                     AdvectionScratch& scratch);
+/// Transports a scalar over dt [s]; what comes in through open faces is `ambient`. Returns the balance of (scalar -
+/// ambient) over the box, in scalar units x m3: `in` by created gas, `out` through open faces.
+Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient,
+                     double dt, AdvectionScratch& scratch);
 
 }  // namespace brisance

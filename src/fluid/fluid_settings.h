@@ -30,28 +30,28 @@ using Faces = std::array<FaceKind, 6>;
 
 struct FluidSettings {
   Vec3i cells{64, 64, 64};
-  Vec3d corner;           ///< [m] lower corner of the box
-  double cellSize = 1.0 / 64;  ///< [m]
-  Faces faces{};          ///< all open
+  Vec3d corner;                   ///< [m] lower corner of the box
+  double cellSize = 1.0 / 64;     ///< [m]
+  Faces faces{};                  ///< all open
   bool removeMeanSource = false;  ///< all faces walled and a net source: let the mean go, instead of refusing
 
   AdvectionScheme advection;
   PressureSolver pressure;
 
-  double viscosity = 0;             ///< [m2/s] (1/Re of the thesis)
-  double conductivity = 0;          ///< c_k [m2/s]
-  double coolingRate = 2500;        ///< c_r [K/s] at the maximum temperature
-  double ambientTemperature = 300;  ///< T_a [K]
+  double viscosity = 0;              ///< [m2/s] (1/Re of the thesis)
+  double conductivity = 0;           ///< c_k [m2/s]
+  double coolingRate = 2500;         ///< c_r [K/s] at the maximum temperature
+  double ambientTemperature = 300;   ///< T_a [K]
   double maximumTemperature = 2675;  ///< T_max [K], the scale of the cooling term
-  double heatCapacity = 1200;       ///< rho c_p [J/(m3 K)]
-  Vec3d force;                      ///< g_x, g_y, g_z on the gas [m/s2]
-  double buoyancy = 0;              ///< upward (+y) acceleration per kelvin above ambient [m/(s2 K)]
-  double vorticityConfinement = 0;  ///< epsilon of Fedkiw, Stam & Jensen 2001, dimensionless
-  double flameLifetime = 0.15;      ///< [s] over which the flame field fades to 1/e
+  double heatCapacity = 1200;        ///< rho c_p [J/(m3 K)]
+  Vec3d force;                       ///< g_x, g_y, g_z on the gas [m/s2]
+  double buoyancy = 0;               ///< upward (+y) acceleration per kelvin above ambient [m/(s2 K)]
+  double vorticityConfinement = 0;   ///< epsilon of Fedkiw, Stam & Jensen 2001, dimensionless
+  double flameLifetime = 0.15;       ///< [s] over which the flame field fades to 1/e
   Vec3d wind;                        ///< [m/s] of the air outside and, at first, inside
-  double startVelocity = 0;         ///< [m/s] deviation of the random start velocities (thesis 2.4.3)
-  double courant = 1.0;             ///< dt sum(max|u_i|)/dx stays below
-  double maxSubsteps = 2000;        ///< per frame, beyond which the run stops as unstable
+  double startVelocity = 0;          ///< [m/s] deviation of the random start velocities (thesis 2.4.3)
+  double courant = 1.0;              ///< dt sum(max|u_i|)/dx stays below
+  double maxSubsteps = 2000;         ///< per frame, beyond which the run stops as unstable
 };
 
 }  // namespace brisance

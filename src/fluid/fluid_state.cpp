@@ -5,7 +5,8 @@
 namespace brisance {
 
 namespace {
-/// The wind, with small random velocities so that the explosion is not symmetric (thesis 2.4.3). Closed faces stay at rest.
+/// The wind, with small random velocities so that the explosion is not symmetric (thesis 2.4.3). Closed faces stay at
+/// rest.
 void stir(FluidState& gas, const Vec3d& wind, double deviation, std::uint64_t seed) {
   const Random random(seed, Stream::startVelocity);
   std::uint64_t index = 0;

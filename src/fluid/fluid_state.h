@@ -10,21 +10,22 @@ namespace brisance {
 struct SolidStamp {
   Grid3<std::uint8_t> inside;  ///< 1: the cell's centre lies in a solid
   MacVelocity openShare;       ///< share of each face that lets gas through: 0 or 1
-  Grid3<std::int32_t> pocket;  ///< 0: gas that reaches an open face of the box; n > 0: the n-th sealed pocket; -1: solid
+  Grid3<std::int32_t>
+      pocket;  ///< 0: gas that reaches an open face of the box; n > 0: the n-th sealed pocket; -1: solid
   int pocketCount = 0;
   friend bool operator==(const SolidStamp&, const SolidStamp&) = default;
 };
 
 /// Scalars live at cell centres.
 struct FluidState {
-  MacVelocity velocity;         ///< [m/s]
-  Grid3<float> pressure;        ///< p / rho [m2/s2], the start of the next solve
-  Grid3<float> temperature;     ///< [K]
-  Grid3<float> soot;            ///< [kg/m3] carried by the gas
-  Grid3<float> flame;           ///< [kg/m3] fuel burnt in the last moments, carried by the gas
-  Grid3<float> divergence;      ///< phi [1/s]: rate of expansion
-  Grid3<float> heatRate;        ///< H [K/s]
-  Grid3<float> burnRate;        ///< fuel burnt [kg/(m3 s)], what soot and flame grow by
+  MacVelocity velocity;      ///< [m/s]
+  Grid3<float> pressure;     ///< p / rho [m2/s2], the start of the next solve
+  Grid3<float> temperature;  ///< [K]
+  Grid3<float> soot;         ///< [kg/m3] carried by the gas
+  Grid3<float> flame;        ///< [kg/m3] fuel burnt in the last moments, carried by the gas
+  Grid3<float> divergence;   ///< phi [1/s]: rate of expansion
+  Grid3<float> heatRate;     ///< H [K/s]
+  Grid3<float> burnRate;     ///< fuel burnt [kg/(m3 s)], what soot and flame grow by
   SolidStamp solid;
 };
 

@@ -38,7 +38,8 @@ Balance stepTemperature(FluidState& gas, const FluidSettings& s, double dt, Flui
 }
 }  // namespace
 
-FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double sootPerMass, double dt, FluidScratch& scratch) {
+FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double sootPerMass, double dt,
+                      FluidScratch& scratch) {
   FluidReport report;
   report.courant = courantNumber(gas, dt);
   report.heat = stepTemperature(gas, settings, dt, scratch);
@@ -75,7 +76,7 @@ double longestStep(const FluidState& gas, const FluidSettings& s, double largest
 
 std::string findNotFinite(const FluidState& gas) {
   const std::pair<const char*, const Grid3<float>*> grids[] = {
-      {"velocity u", &gas.velocity.u}, {"velocity v", &gas.velocity.v},    {"velocity w", &gas.velocity.w},
+      {"velocity u", &gas.velocity.u}, {"velocity v", &gas.velocity.v},   {"velocity w", &gas.velocity.w},
       {"pressure", &gas.pressure},     {"temperature", &gas.temperature}, {"soot", &gas.soot}};
   for (const auto& [name, grid] : grids)
     for (std::int64_t n = 0; n < grid->count(); ++n)

@@ -1,4 +1,5 @@
-// One step of the gas: burn (done by the caller into heatRate, divergence, burnRate); addForces; advect; diffuse; project.
+// One step of the gas: burn (done by the caller into heatRate, divergence, burnRate); addForces; advect; diffuse;
+// project.
 #pragma once
 
 #include "base/report.h"
@@ -23,13 +24,14 @@ struct FluidReport {
 };
 
 /// Advances the gas by dt [s]. `sootPerMass` turns burnt fuel into soot.
-FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double sootPerMass, double dt, FluidScratch& scratch);
+FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double sootPerMass, double dt,
+                      FluidScratch& scratch);
 
 /// dt sum(max |u_i|) / h of the gas as it is.
 double courantNumber(const FluidState& gas, double dt);
 
-/// The longest stable step [s] for the gas as it moves now when its source may reach `largestSource` [1/s]: Courant number, expansion
-/// dt <= 6 C / phi, acceleration, viscosity and conduction.
+/// The longest stable step [s] for the gas as it moves now when its source may reach `largestSource` [1/s]: Courant
+/// number, expansion dt <= 6 C / phi, acceleration, viscosity and conduction.
 double longestStep(const FluidState& gas, const FluidSettings& settings, double largestSource);
 
 /// The first value that is not a finite number, as "temperature at cell (i, j, k)"; empty when all are.

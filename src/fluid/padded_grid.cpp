@@ -18,8 +18,8 @@ void copyInside(PaddedGrid& padded, const Grid3<float>& source) {
   });
 }
 
-/// Calls at(ghost, inner, a, b) for each sample of one face's ghost layer; (a, b) number the inner samples of the face along
-/// the two other axes, the lower axis first.
+/// Calls at(ghost, inner, a, b) for each sample of one face's ghost layer; (a, b) number the inner samples of the face
+/// along the two other axes, the lower axis first.
 template <class At>
 void forGhosts(Grid3<float>& padded, int face, const At& at) {
   const int axis = face / 2, b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
@@ -32,13 +32,17 @@ void forGhosts(Grid3<float>& padded, int face, const At& at) {
     }
 }
 
-/// Whether gas comes in through a face of the box beside a sample (p, q) of a scalar, or of the velocity component along
-/// `staggered`, which lies between two cells and takes the mean of their speeds.
+/// Whether gas comes in through a face of the box beside a sample (p, q) of a scalar, or of the velocity component
+/// along `staggered`, which lies between two cells and takes the mean of their speeds.
 class Inflow {
  public:
   Inflow(const MacVelocity& velocity, int face, int staggered = -1)
-      : normal_(velocity.component(face / 2)), upper_(face % 2), b_(face / 2 == 0 ? 1 : 0), c_(face / 2 == 2 ? 1 : 2),
-        backP_(staggered == b_ ? 1 : 0), backQ_(staggered == c_ ? 1 : 0),
+      : normal_(velocity.component(face / 2)),
+        upper_(face % 2),
+        b_(face / 2 == 0 ? 1 : 0),
+        c_(face / 2 == 2 ? 1 : 2),
+        backP_(staggered == b_ ? 1 : 0),
+        backQ_(staggered == c_ ? 1 : 0),
         layer_(upper_ ? (normal_.size[face / 2] - 1) * normal_.stride(face / 2) : 0) {}
   bool at(int p, int q) const {
     const float speed = cell(p - backP_, q - backQ_) + cell(p, q);
@@ -64,9 +68,8 @@ void PaddedVelocity::fill(const MacVelocity& velocity, const Faces& faces, const
       if (faces[face] == FaceKind::open) {
         const Inflow inflow(velocity, face, axis);
         const float outer = static_cast<float>(wind[axis]);
-        forGhosts(component[axis].values, face, [&](float& ghost, float inner, int p, int q) {
-          ghost = inflow.at(p, q) ? outer : inner;
-        });
+        forGhosts(component[axis].values, face,
+                  [&](float& ghost, float inner, int p, int q) { ghost = inflow.at(p, q) ? outer : inner; });
       } else {
         const float factor = face / 2 != axis && faces[face] == FaceKind::noSlip ? -1.0f : 1.0f;
         forGhosts(component[axis].values, face, [&](float& ghost, float inner, int, int) { ghost = factor * inner; });

@@ -12,9 +12,10 @@ struct PaddedGrid {
   const float* row(int j, int k) const { return values.values.data() + values.index(1, j + 1, k + 1); }
 };
 
-/// The box's velocity with ghosts (thesis 2.4.3; Griebel et al. 1998, section 3.1.2): along a no-slip wall reversed, along a free-slip
-/// wall equal. Beyond an open face as inside where gas leaves, and the outer air's where it comes in: with the inner velocity
-/// there too, a draught would feed on itself (measured: 26 m/s through an open window long after the fire).
+/// The box's velocity with ghosts (thesis 2.4.3; Griebel et al. 1998, section 3.1.2): along a no-slip wall reversed,
+/// along a free-slip wall equal. Beyond an open face as inside where gas leaves, and the outer air's where it comes in:
+/// with the inner velocity there too, a draught would feed on itself (measured: 26 m/s through an open window long
+/// after the fire).
 struct PaddedVelocity {
   PaddedGrid component[3];
   void fill(const MacVelocity& velocity, const Faces& faces, const Vec3d& wind);

@@ -8,7 +8,8 @@
 namespace brisance {
 
 namespace {
-constexpr int lanes = 8;  ///< partial sums of a dot product: a fixed number, so that its bits do not depend on vector width
+constexpr int lanes =
+    8;  ///< partial sums of a dot product: a fixed number, so that its bits do not depend on vector width
 
 double total(const double (&sums)[lanes]) {
   return ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]));
@@ -100,7 +101,8 @@ void resize(PressureScratch& scratch, const FluidState& gas) {
   const Vec3i padded{n.x + 2, n.y + 2, n.z + 2};
   if (scratch.x.size == padded) return;
   for (Grid3<double>* vector : {&scratch.x, &scratch.r, &scratch.d, &scratch.q})
-    *vector = Grid3<double>(padded, gas.pressure.origin - Vec3d(1, 1, 1) * gas.pressure.cellSize, gas.pressure.cellSize, 0.0);
+    *vector =
+        Grid3<double>(padded, gas.pressure.origin - Vec3d(1, 1, 1) * gas.pressure.cellSize, gas.pressure.cellSize, 0.0);
 }
 
 /// b = h^2 (phi - div u), and as the start the last pressure times dt.
@@ -122,7 +124,8 @@ void setUp(const FluidState& gas, double dt, PressureScratch& scratch) {
 /// A pocket that no open face reaches can only be solved for a source whose sum is zero.
 void removePocketSources(const FluidState& gas, const FluidSettings& settings, PressureScratch& scratch) {
   const Vec3i n = gas.pressure.size;
-  std::vector<double> sum(gas.solid.pocketCount + 1), size(gas.solid.pocketCount + 1), absolute(gas.solid.pocketCount + 1);
+  std::vector<double> sum(gas.solid.pocketCount + 1), size(gas.solid.pocketCount + 1),
+      absolute(gas.solid.pocketCount + 1);
   const auto forPockets = [&](const auto& visit) {
     for (int k = 0; k < n.z; ++k)
       for (int j = 0; j < n.y; ++j)
@@ -137,10 +140,11 @@ void removePocketSources(const FluidState& gas, const FluidSettings& settings, P
   constexpr double rounding = 1e-5;  // of float velocities
   for (int pocket = 1; pocket <= gas.solid.pocketCount; ++pocket)
     if (!settings.removeMeanSource && std::abs(sum[pocket]) > rounding * absolute[pocket] && absolute[pocket] > 0)
-      throw InputError(fmt::format(
-          "gas: a sealed space of {} cells receives {:.3g} m3/s of gas and has no way out: open a face of gas.faces or an opening "
-          "in the solids, or set gas.remove_mean_source = true",
-          size[pocket], sum[pocket] * gas.pressure.cellSize));
+      throw InputError(
+          fmt::format("gas: a sealed space of {} cells receives {:.3g} m3/s of gas and has no way out: open a face of "
+                      "gas.faces or an opening "
+                      "in the solids, or set gas.remove_mean_source = true",
+                      size[pocket], sum[pocket] * gas.pressure.cellSize));
   forPockets([&](int pocket, double& b) { b -= sum[pocket] / size[pocket]; });
 }
 
@@ -212,8 +216,8 @@ PressureReport project(FluidState& gas, const FluidSettings& settings, double dt
   setUp(gas, dt, scratch);
   if (gas.solid.pocketCount > 0) removePocketSources(gas, settings, scratch);
   const PressureOperator op = makePressureOperator(gas.solid, settings.faces);
-  const PressureReport report =
-      std::visit([&](const ConjugateGradient& cg) { return solveConjugateGradient(op, cg, scratch); }, settings.pressure);
+  const PressureReport report = std::visit(
+      [&](const ConjugateGradient& cg) { return solveConjugateGradient(op, cg, scratch); }, settings.pressure);
   subtractGradient(gas, op, dt, scratch.x);
   return report;
 }
@@ -242,11 +246,12 @@ double divergenceError(const FluidState& gas) {
 double createdVolume(const FluidState& gas, const FluidSettings& settings) {
   const auto& phi = gas.divergence.values;
   const auto& solid = gas.solid.inside.values;
-  const double sum = parallelSum(static_cast<std::int64_t>(phi.size()), 4096, [&](std::int64_t first, std::int64_t last) {
-    double part = 0;
-    for (std::int64_t n = first; n < last; ++n) part += solid[n] ? 0 : phi[n];
-    return part;
-  });
+  const double sum =
+      parallelSum(static_cast<std::int64_t>(phi.size()), 4096, [&](std::int64_t first, std::int64_t last) {
+        double part = 0;
+        for (std::int64_t n = first; n < last; ++n) part += solid[n] ? 0 : phi[n];
+        return part;
+      });
   return sum * settings.cellSize * settings.cellSize * settings.cellSize;
 }
 

@@ -9,7 +9,8 @@ namespace brisance {
 namespace {
 constexpr std::int32_t solidCell = -1, unvisited = -2;
 
-/// Where a triangle crosses the lines of cell centres along one axis: per line (p, q) the places along the axis, in cells.
+/// Where a triangle crosses the lines of cell centres along one axis: per line (p, q) the places along the axis, in
+/// cells.
 using Crossings = std::map<std::int64_t, std::vector<double>>;
 
 struct Corner {
@@ -23,7 +24,8 @@ void rasterise(const Corner (&t)[3], const Vec3i& linesAcross, Crossings& crossi
   const double lowQ = std::min({t[0].q, t[1].q, t[2].q}), highQ = std::max({t[0].q, t[1].q, t[2].q});
   const double area = (t[1].p - t[0].p) * (t[2].q - t[0].q) - (t[2].p - t[0].p) * (t[1].q - t[0].q);
   if (area == 0) return;
-  const int p0 = static_cast<int>(std::max(0.0, std::floor(lowP))), q0 = static_cast<int>(std::max(0.0, std::floor(lowQ)));
+  const int p0 = static_cast<int>(std::max(0.0, std::floor(lowP))),
+            q0 = static_cast<int>(std::max(0.0, std::floor(lowQ)));
   const int p1 = static_cast<int>(std::min(linesAcross.x - 1.0, std::ceil(highP)));
   const int q1 = static_cast<int>(std::min(linesAcross.y - 1.0, std::ceil(highQ)));
   for (int q = q0; q <= q1; ++q)
@@ -33,7 +35,7 @@ void rasterise(const Corner (&t)[3], const Vec3i& linesAcross, Crossings& crossi
       const double w2 = ((t[1].p - t[0].p) * (y - t[0].q) - (x - t[0].p) * (t[1].q - t[0].q)) / area;
       if (w1 < 0 || w2 < 0 || w1 + w2 > 1) continue;
       crossings[p + static_cast<std::int64_t>(q) * linesAcross.x].push_back(t[0].a + w1 * (t[1].a - t[0].a) +
-                                                                          w2 * (t[2].a - t[0].a));
+                                                                            w2 * (t[2].a - t[0].a));
     }
 }
 
@@ -59,7 +61,7 @@ void closeFaces(int axis, const Crossings& crossings, const Vec3i& cells, Grid3<
   for (const auto& [line, places] : crossings) {
     const std::int64_t p = line % cells[b], q = line / cells[b];
     for (const double place : places) {
-      const double face = std::ceil(place);  // between the centres face - 1 and face
+      const double face = std::ceil(place);                       // between the centres face - 1 and face
       if (place <= -0.5 || place >= cells[axis] - 0.5) continue;  // outside the box
       open.values[static_cast<std::int64_t>(face) * open.stride(axis) + p * open.stride(b) + q * open.stride(c)] = 0;
     }
@@ -112,7 +114,8 @@ bool flood(SolidStamp& stamp, std::int64_t seed, int number) {
   while (!stack.empty()) {
     const std::int64_t cell = stack.back();
     stack.pop_back();
-    const int place[3] = {static_cast<int>(cell % pocket.size.x), static_cast<int>(cell / pocket.size.x % pocket.size.y),
+    const int place[3] = {static_cast<int>(cell % pocket.size.x),
+                          static_cast<int>(cell / pocket.size.x % pocket.size.y),
                           static_cast<int>(cell / pocket.stride(2))};
     for (int axis = 0; axis < 3; ++axis)
       for (int side = 0; side < 2; ++side) {

@@ -74,7 +74,8 @@ Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt, G
 }
 
 double heatContent(const FluidState& gas, const FluidSettings& settings) {
-  const double sum = cellSum(gas, [&](std::int64_t n) { return gas.temperature.values[n] - settings.ambientTemperature; });
+  const double sum =
+      cellSum(gas, [&](std::int64_t n) { return gas.temperature.values[n] - settings.ambientTemperature; });
   return sum * settings.heatCapacity * settings.cellSize * settings.cellSize * settings.cellSize;
 }
 

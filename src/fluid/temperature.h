@@ -6,11 +6,12 @@
 
 namespace brisance {
 
-/// Temperature above ambient after dt [s] of radiative cooling d theta/dt = -c_r (theta / range)^4, in closed form; gas below
-/// ambient does not cool. `range` = T_max - T_a [K], `rate` = c_r [K/s].
+/// Temperature above ambient after dt [s] of radiative cooling d theta/dt = -c_r (theta / range)^4, in closed form; gas
+/// below ambient does not cool. `range` = T_max - T_a [K], `rate` = c_r [K/s].
 double cooled(double theta, double range, double rate, double dt);
 
-/// Conducts, heats and cools all cells over dt [s]. Returns [J]: `in` what the heat source released, `lost` what was radiated.
+/// Conducts, heats and cools all cells over dt [s]. Returns [J]: `in` what the heat source released, `lost` what was
+/// radiated.
 Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt, Grid3<float>& scratch);
 
 /// Heat that the box holds above ambient [J].

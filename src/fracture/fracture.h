@@ -35,7 +35,8 @@ struct FracturedBody {
   std::vector<Bond> bonds;
 };
 
-/// A flat pane of glass (thesis 3.3): points, triangles, pieces, each extruded. In the x-y plane, centred on the origin.
+/// A flat pane of glass (thesis 3.3): points, triangles, pieces, each extruded. In the x-y plane, centred on the
+/// origin.
 struct PaneSettings {
   double width = 1, height = 1, thickness = 0.005;  ///< [m]
   int points = 200;                                 ///< inside the rectangle

@@ -1,4 +1,5 @@
-// Velocity on the faces of cells (Harlow & Welch 1965): u(i,j,k) on the face between cells i-1 and i, positive towards +x.
+// Velocity on the faces of cells (Harlow & Welch 1965): u(i,j,k) on the face between cells i-1 and i, positive towards
+// +x.
 #pragma once
 
 #include <array>

@@ -13,7 +13,7 @@ namespace brisance {
 template <class T>
 struct SparseGrid {
   struct Brick {
-    Vec3i corner;                ///< first sample of the brick: a multiple of 8 along each axis
+    Vec3i corner;               ///< first sample of the brick: a multiple of 8 along each axis
     std::array<T, 512> values;  ///< i fastest; samples outside `size` hold the background
     friend bool operator==(const Brick&, const Brick&) = default;
   };

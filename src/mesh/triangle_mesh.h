@@ -15,8 +15,8 @@ using Triangle = std::array<std::uint32_t, 3>;  ///< vertex numbers, counter-clo
 struct TriangleMesh {
   std::vector<Vec3d> vertices;  ///< [m]
   std::vector<Triangle> triangles;
-  std::vector<Vec3d> normals;           ///< per vertex for smooth shading, or empty
-  std::vector<Vec2d> uvs;               ///< per vertex, (0, 0) lower left of the picture, or empty
+  std::vector<Vec3d> normals;            ///< per vertex for smooth shading, or empty
+  std::vector<Vec2d> uvs;                ///< per vertex, (0, 0) lower left of the picture, or empty
   std::vector<std::uint16_t> materials;  ///< per triangle, index into materialNames, or empty
   std::vector<std::string> materialNames;
   friend bool operator==(const TriangleMesh&, const TriangleMesh&) = default;

@@ -50,7 +50,8 @@ class Kernel {
 
   double weightSum(const Vec3d& place, const Reach& r) const {
     double sum = 0;
-    for (int k = r.lower.z; k <= r.upper.z; ++k) layer(place, r, k, [&](std::int64_t, double weight) { sum += weight; });
+    for (int k = r.lower.z; k <= r.upper.z; ++k)
+      layer(place, r, k, [&](std::int64_t, double weight) { sum += weight; });
     return sum;
   }
 
@@ -108,8 +109,8 @@ std::vector<double> burn(ParticleSet& particles, const BurnSettings& settings, d
   return burnt;
 }
 
-void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const BurnSettings& settings, double dt,
-                  const Grid3<std::uint8_t>& solid, Grid3<float>& rate) {
+void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const BurnSettings& settings,
+                  double dt, const Grid3<std::uint8_t>& solid, Grid3<float>& rate) {
   const Kernel kernel(solid, settings.depositRadius);
   std::vector<Deposit> deposits;
   for (std::size_t n = 0; n < burnt.size(); ++n)
@@ -140,7 +141,8 @@ double largestDeposit(std::size_t burning, const BurnSettings& settings, double 
   return static_cast<double>(burning) * settings.burnRate * peak;
 }
 
-void createSoot(ParticleSet& particles, const BurnSettings& settings, const Grid3<std::uint8_t>& solid, std::uint64_t seed) {
+void createSoot(ParticleSet& particles, const BurnSettings& settings, const Grid3<std::uint8_t>& solid,
+                std::uint64_t seed) {
   const Random place(seed, Stream::sootPosition), speed(seed, Stream::sootVelocity);
   const auto inGas = [&](const Vec3d& p) {
     const Vec3d cell = (p - solid.origin) / solid.cellSize + Vec3d(.5, .5, .5);

@@ -11,10 +11,10 @@ namespace brisance {
 enum class ParticleKind : std::uint8_t { fuel, soot };
 
 struct ParticleSet {
-  std::vector<std::uint64_t> id;  ///< unique for the run: the address of the particle's random numbers
-  std::vector<Vec3d> position;    ///< [m]
-  std::vector<Vec3d> velocity;    ///< [m/s]
-  std::vector<double> mass;       ///< [kg]
+  std::vector<std::uint64_t> id;    ///< unique for the run: the address of the particle's random numbers
+  std::vector<Vec3d> position;      ///< [m]
+  std::vector<Vec3d> velocity;      ///< [m/s]
+  std::vector<double> mass;         ///< [kg]
   std::vector<double> temperature;  ///< Y [K]
   std::vector<double> sootMass;     ///< s [kg] gathered since the last soot particle
   std::vector<ParticleKind> kind;

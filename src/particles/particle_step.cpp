@@ -11,8 +11,8 @@ namespace {
 /// log(1 + x) / x for x >= 0
 double logRatio(double x) { return x < 1e-4 ? 1 - x / 2 + x * x / 3 : portableLog(1 + x) / x; }
 
-/// The place that `from` reaches on its way to `to`, one axis after the other, stopping short of closed faces: particles slide
-/// along walls. False when it leaves the box.
+/// The place that `from` reaches on its way to `to`, one axis after the other, stopping short of closed faces:
+/// particles slide along walls. False when it leaves the box.
 bool moveThrough(const MacVelocity& openShare, const Vec3d& from, const Vec3d& to, Vec3d& reached) {
   const Vec3i cells = openShare.cells();
   const double h = openShare.u.cellSize;
@@ -62,9 +62,8 @@ void stepParticles(ParticleSet& p, const GasAround& gas, const BurnSettings& set
       const double threshold =
           p.kind[n] == ParticleKind::fuel ? settings.fuelMassThreshold : settings.sootMassThreshold;
       const Vec3d wind = interpolate(gas.velocity, p.position[n]);
-      const Dragged step = p.mass[n] < threshold
-                               ? Dragged{wind * dt, wind}
-                               : dragExactly(p.velocity[n], wind, settings.drag * r2 / p.mass[n], dt);
+      const Dragged step = p.mass[n] < threshold ? Dragged{wind * dt, wind}
+                                                 : dragExactly(p.velocity[n], wind, settings.drag * r2 / p.mass[n], dt);
       p.velocity[n] = step.velocity;
       const Vec3d goal = p.position[n] + step.displacement;
       gone[n] = !moveThrough(gas.openShare, p.position[n], goal, p.position[n]);

@@ -9,12 +9,13 @@ namespace brisance {
 
 /// What particles feel of the gas.
 struct GasAround {
-  const MacVelocity& velocity;       ///< [m/s]
-  const Grid3<float>& temperature;   ///< [K]
-  const MacVelocity& openShare;      ///< 0: a face that nothing passes
+  const MacVelocity& velocity;      ///< [m/s]
+  const Grid3<float>& temperature;  ///< [K]
+  const MacVelocity& openShare;     ///< 0: a face that nothing passes
 };
 
-/// Place and velocity after dt [s] of the drag dv/dt = k |g - v| (g - v) towards gas of velocity g, both exact. k in [1/m].
+/// Place and velocity after dt [s] of the drag dv/dt = k |g - v| (g - v) towards gas of velocity g, both exact. k in
+/// [1/m].
 struct Dragged {
   Vec3d displacement, velocity;
 };

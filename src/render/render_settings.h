@@ -22,23 +22,27 @@ struct CameraSettings {
   double shutter = 0;  ///< fraction of a frame the shutter is open
 };
 
-struct SolidColour { Vec3f colour{.7f, .7f, .7f}; };  ///< scene-linear
-struct ImageTexture { std::filesystem::path file; };     ///< PNG or JPEG, sRGB
+struct SolidColour {
+  Vec3f colour{.7f, .7f, .7f};
+};  ///< scene-linear
+struct ImageTexture {
+  std::filesystem::path file;
+};  ///< PNG or JPEG, sRGB
 using Texture = std::variant<SolidColour, ImageTexture>;
 
 /// Phong's model (appendix A.1.2), plus perfect mirror and glass.
 struct Material {
   Texture diffuse;
-  double diffuseWeight = 1;     ///< R_d
-  Vec3f specular{0, 0, 0};      ///< R_s
+  double diffuseWeight = 1;      ///< R_d
+  Vec3f specular{0, 0, 0};       ///< R_s
   double specularExponent = 50;  ///< f
-  Vec3f ambient{1, 1, 1};       ///< R_a times the diffuse colour
-  Vec3f emission{0, 0, 0};      ///< times the diffuse texture: a lit picture
-  Vec3f reflection{0, 0, 0};    ///< perfect mirror share of an opaque surface
-  bool glass = false;           ///< dielectric: exact Fresnel shares of reflection and refraction
+  Vec3f ambient{1, 1, 1};        ///< R_a times the diffuse colour
+  Vec3f emission{0, 0, 0};       ///< times the diffuse texture: a lit picture
+  Vec3f reflection{0, 0, 0};     ///< perfect mirror share of an opaque surface
+  bool glass = false;            ///< dielectric: exact Fresnel shares of reflection and refraction
   double refractiveIndex = 1.5;
-  Vec3f absorption{0, 0, 0};    ///< [1/m] inside glass
-  bool smooth = false;          ///< Phong shading: normals between vertices
+  Vec3f absorption{0, 0, 0};  ///< [1/m] inside glass
+  bool smooth = false;        ///< Phong shading: normals between vertices
   bool castsShadow = true;
 };
 
@@ -59,24 +63,26 @@ struct FireLight {
 using Light = std::variant<PointLight, SunLight, FireLight>;
 
 /// How temperature becomes colour.
-struct PhysicalBlackbody { double exposureTemperature = 2000; };  ///< [K] whose luminance is 1
-struct TunedBlackbody {};                                         ///< the thesis' 2P^2 + 100P + 1000
+struct PhysicalBlackbody {
+  double exposureTemperature = 2000;
+};                         ///< [K] whose luminance is 1
+struct TunedBlackbody {};  ///< the thesis' 2P^2 + 100P + 1000
 using BlackbodyMap = std::variant<PhysicalBlackbody, TunedBlackbody>;
 
 /// The gas drawn from its particles (appendix A.2).
 struct VolumeSettings {
   bool drawn = true;
-  Vec3i cells{300, 300, 300};   ///< vx x vy x vz
-  Vec3d corner;                 ///< [m]
-  double cellSize = 1.0 / 300;  ///< [m]
-  double blur = 0.022;          ///< alpha [m]
-  int filterSize = 0;           ///< nf; 0: three deviations
+  Vec3i cells{300, 300, 300};                 ///< vx x vy x vz
+  Vec3d corner;                               ///< [m]
+  double cellSize = 1.0 / 300;                ///< [m]
+  double blur = 0.022;                        ///< alpha [m]
+  int filterSize = 0;                         ///< nf; 0: three deviations
   double minDensity = 0.0, maxDensity = 1.0;  ///< min_d, max_d
-  double fullDensity = 1.0;     ///< [kg/m3] that is mapped to max_d: one range for the whole run
-  double opacity = 100;         ///< tau [1/m] per mapped density
-  double fuelWeight = 1;        ///< how much a burning fuel particle counts, times its mass
+  double fullDensity = 1.0;                   ///< [kg/m3] that is mapped to max_d: one range for the whole run
+  double opacity = 100;                       ///< tau [1/m] per mapped density
+  double fuelWeight = 1;                      ///< how much a burning fuel particle counts, times its mass
   BlackbodyMap blackbody;
-  double emission = 1;          ///< times the blackbody colour
+  double emission = 1;                  ///< times the blackbody colour
   Vec3f smokeColour{.03f, .03f, .03f};  ///< what cold smoke scatters of the ambient light
 };
 

@@ -15,8 +15,8 @@ struct SurfacePoint {
   double area;
 };
 
-/// One point per triangle, at its centroid: for a closed flat-sided body the quadrature is exact where the wind is linear
-/// over each triangle.
+/// One point per triangle, at its centroid: for a closed flat-sided body the quadrature is exact where the wind is
+/// linear over each triangle.
 void forSurface(const TriangleMesh& mesh, const AreaQuadrature&, double, const auto& visit) {
   for (const Triangle& t : mesh.triangles) {
     const Vec3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
@@ -48,7 +48,8 @@ struct Drag {
   Mat3 stiffness = identity(0), damping = identity(0);
 };
 
-Drag gather(const RigidBodies& bodies, std::size_t b, const MacVelocity& gas, const GasPush& push, const MeanArea& mean) {
+Drag gather(const RigidBodies& bodies, std::size_t b, const MacVelocity& gas, const GasPush& push,
+            const MeanArea& mean) {
   const Vec3i n = gas.cells();
   const double h = gas.u.cellSize;
   const Vec3d corner = gas.u.origin - Vec3d(0, .5, .5) * h;
@@ -70,7 +71,8 @@ Drag gather(const RigidBodies& bodies, std::size_t b, const MacVelocity& gas, co
     drag.twist += cross(arm, wind - v) * k;
     drag.damping = drag.damping + (identity(r2) + outer(arm, arm) * -1) * k;
   };
-  std::visit([&](const auto& quadrature) { forSurface(*bodies.mesh[b], quadrature, mean.perVertex, act); }, push.quadrature);
+  std::visit([&](const auto& quadrature) { forSurface(*bodies.mesh[b], quadrature, mean.perVertex, act); },
+             push.quadrature);
   return drag;
 }
 }  // namespace

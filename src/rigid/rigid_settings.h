@@ -15,7 +15,7 @@ using PushQuadrature = std::variant<AreaQuadrature, VertexSum>;
 struct GasPush {
   double forceConstant = 1.0;  ///< F_c [kg/m3]: force per area = F_c |dv| dv
   PushQuadrature quadrature;
-  bool parallelOnly = false;     ///< the thesis' choice: only the force along r accelerates the centre of mass
+  bool parallelOnly = false;    ///< the thesis' choice: only the force along r accelerates the centre of mass
   double smallPieceFavour = 0;  ///< force times (mean area / area)^this: the "small ones faster" look
 };
 

@@ -25,7 +25,8 @@ void spinFreely(Quaternion& orientation, Vec3d& angularVelocity, const Mat3& ine
   const Vec3d momentum = worldInertia(inertia, orientation) * angularVelocity;
   const Mat3 inverseInertia = inverse(inertia);
   const Quaternion& q = orientation;
-  const Quaternion k1 = turning(q, inverseInertia, momentum), k2 = turning(plus(q, k1, dt / 2), inverseInertia, momentum),
+  const Quaternion k1 = turning(q, inverseInertia, momentum),
+                   k2 = turning(plus(q, k1, dt / 2), inverseInertia, momentum),
                    k3 = turning(plus(q, k2, dt / 2), inverseInertia, momentum),
                    k4 = turning(plus(q, k3, dt), inverseInertia, momentum);
   orientation = normalized(plus(plus(plus(plus(q, k1, dt / 6), k2, dt / 3), k3, dt / 3), k4, dt / 6));

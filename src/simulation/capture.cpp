@@ -63,8 +63,14 @@ Frame captureFrame(const WorldState& world, const SimulationSettings& settings) 
   frame.particles = captureParticles(world.particles);
   const RigidBodies& b = world.bodies;
   for (std::size_t n = 0; n < b.size(); ++n)
-    frame.bodies.push_back({b.name[n], b.mesh[n], world.looks[n].material, {b.position[n], b.orientation[n]},
-                            b.linearVelocity[n], b.angularVelocity[n], world.looks[n].temperature, world.looks[n].moves});
+    frame.bodies.push_back({b.name[n],
+                            b.mesh[n],
+                            world.looks[n].material,
+                            {b.position[n], b.orientation[n]},
+                            b.linearVelocity[n],
+                            b.angularVelocity[n],
+                            world.looks[n].temperature,
+                            world.looks[n].moves});
   return frame;
 }
 

@@ -75,7 +75,8 @@ void archive(Archive& a, State& world) {
   a.value(world.burning);
   a.value(world.totals);
   auto& gas = world.gas;
-  for (auto* grid : {&gas.velocity.u, &gas.velocity.v, &gas.velocity.w, &gas.pressure, &gas.temperature, &gas.soot, &gas.flame})
+  for (auto* grid :
+       {&gas.velocity.u, &gas.velocity.v, &gas.velocity.w, &gas.pressure, &gas.temperature, &gas.soot, &gas.flame})
     a.fixedArray(grid->values);
   forEachField(world.particles, [&](auto& field) { a.array(field); });
   a.value(world.particles.nextId);

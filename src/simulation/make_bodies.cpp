@@ -38,11 +38,13 @@ double massOf(const Piece& piece, const MassRule& rule, double wholeVolume) {
   return std::visit(Rule{piece, wholeVolume}, rule);
 }
 
-void addPiece(const BodySettings& settings, const Piece& piece, const std::string& name, double mass, WorldState& world) {
+void addPiece(const BodySettings& settings, const Piece& piece, const std::string& name, double mass,
+              WorldState& world) {
   RigidBodies& bodies = world.bodies;
   const bool moves = settings.moves;
   if (moves && !(mass > 0))
-    throw InputError(fmt::format("bodies.{}: piece {} has no mass: give it a density, a mass or a closed mesh", settings.name, name));
+    throw InputError(fmt::format("bodies.{}: piece {} has no mass: give it a density, a mass or a closed mesh",
+                                 settings.name, name));
   bodies.name.push_back(name);
   bodies.position.push_back(settings.pose * piece.place);
   bodies.orientation.push_back(settings.pose.orientation);
@@ -68,7 +70,8 @@ std::vector<MovingSolid> makeBodies(const SimulationSettings& settings, WorldSta
       const std::string name = broken.pieces.size() == 1 ? body.name : fmt::format("{}.{:03}", body.name, n + 1);
       addPiece(body, broken.pieces[n], name, massOf(broken.pieces[n], body.mass, volume), world);
       if (body.blocksGas)
-        solids.push_back({world.bodies.mesh.back(), {world.bodies.position.back(), world.bodies.orientation.back()}, {}, {}});
+        solids.push_back(
+            {world.bodies.mesh.back(), {world.bodies.position.back(), world.bodies.orientation.back()}, {}, {}});
     }
   }
   return solids;

@@ -96,7 +96,8 @@ SimulationSummary simulate(const SimulationSettings& settings, RunDirectory& run
     }
     world.advance();
     writeFrame(run, world, summary);
-    if (world.frameIndex() % settings.checkpointEvery == 0 && world.frameIndex() < last) saveCheckpoint(run, world, whileRunning);
+    if (world.frameIndex() % settings.checkpointEvery == 0 && world.frameIndex() < last)
+      saveCheckpoint(run, world, whileRunning);
   }
   saveCheckpoint(run, world, summary.interrupted ? whileRunning : whenDone);
   if (options.progress && !summary.interrupted) options.progress("simulate", last, last);

@@ -15,7 +15,7 @@ struct SimulateOptions {
 
 /// What a run adds up to, for run.json.
 struct SimulationSummary {
-  int frames = 0;        ///< that are in the run now
+  int frames = 0;  ///< that are in the run now
   bool interrupted = false;
   Balance volume, heat;  ///< over all frames
   double courant = 0, divergence = 0;
@@ -23,8 +23,8 @@ struct SimulationSummary {
   std::map<std::string, double> stageSeconds;
 };
 
-/// Continues from the newest checkpoint whose hash holds, else from frame 1. Writes pieces.glb, gas, bodies, particles, reports and
-/// checkpoints; ends early, resumable, when a stop is requested.
+/// Continues from the newest checkpoint whose hash holds, else from frame 1. Writes pieces.glb, gas, bodies, particles,
+/// reports and checkpoints; ends early, resumable, when a stop is requested.
 SimulationSummary simulate(const SimulationSettings& settings, RunDirectory& run, const SimulateOptions& options);
 
 }  // namespace brisance

@@ -33,9 +33,15 @@ struct MeshShape {
 using Shape = std::variant<SphereShape, BoxShape, RectangleShape, MeshShape, PaneSettings>;
 
 /// Mass of the pieces of a body.
-struct MassFromDensity { double density = 2500; };  ///< [kg/m3] times volume
-struct MassGiven { double mass = 1; };               ///< [kg] of the whole body, shared by volume
-struct MassPerArea { double perArea = 10; };         ///< [kg/m2] times the surface (thesis 5.1)
+struct MassFromDensity {
+  double density = 2500;
+};  ///< [kg/m3] times volume
+struct MassGiven {
+  double mass = 1;
+};  ///< [kg] of the whole body, shared by volume
+struct MassPerArea {
+  double perArea = 10;
+};  ///< [kg/m2] times the surface (thesis 5.1)
 using MassRule = std::variant<MassFromDensity, MassGiven, MassPerArea>;
 
 struct BodySettings {
@@ -43,11 +49,11 @@ struct BodySettings {
   Shape shape;
   Pose pose;
   std::string material;
-  bool moves = true;        ///< false: scenery
-  bool blocksGas = false;   ///< only for scenery
+  bool moves = true;       ///< false: scenery
+  bool blocksGas = false;  ///< only for scenery
   MassRule mass;
   FractureSettings fracture;
-  double releaseTime = 0;  ///< [s] until then it rests in place
+  double releaseTime = 0;    ///< [s] until then it rests in place
   double temperature = 300;  ///< [K]
 };
 

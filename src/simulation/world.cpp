@@ -3,10 +3,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "fluid/solid_fractions.h"
 #include "particles/burning.h"
 #include "rigid/gas_push.h"
 #include "rigid/rigid_step.h"
-#include "fluid/solid_fractions.h"
 #include "simulation/capture.h"
 #include "simulation/checkpoint.h"
 #include "simulation/coupling.h"
@@ -53,18 +53,20 @@ void substep(WorldState& world, const SimulationSettings& s, double dt) {
 void refuseBrokenState(const WorldState& world, const SimulationSettings& settings) {
   const std::string place = findNotFinite(world.gas);
   if (!place.empty())
-    throw Error(ExitCode::unstable, fmt::format("frame {}, time {:.4g} s: {} is not a finite number: lower gas.courant or the "
-                                                "explosion's heat and gas",
-                                                world.frame + 1, world.time, place));
+    throw Error(ExitCode::unstable,
+                fmt::format("frame {}, time {:.4g} s: {} is not a finite number: lower gas.courant or the "
+                            "explosion's heat and gas",
+                            world.frame + 1, world.time, place));
   if (!world.report.pressure.converged)
     throw Error(ExitCode::unstable,
                 fmt::format("frame {}, time {:.4g} s: pressure reached a residual of {:.2g} only: raise "
                             "gas.pressure.max_iterations or gas.pressure.tolerance",
                             world.frame + 1, world.time, world.report.pressure.residual));
   if (world.report.substeps >= settings.fluid.maxSubsteps)
-    throw Error(ExitCode::unstable, fmt::format("frame {}, time {:.4g} s: {} sub-steps were not enough: gas is too fast; raise "
-                                                "gas.max_substeps or lower the explosion's heat and gas",
-                                                world.frame + 1, world.time, world.report.substeps));
+    throw Error(ExitCode::unstable,
+                fmt::format("frame {}, time {:.4g} s: {} sub-steps were not enough: gas is too fast; raise "
+                            "gas.max_substeps or lower the explosion's heat and gas",
+                            world.frame + 1, world.time, world.report.substeps));
 }
 
 void addToTotals(const StepReport& report, RunTotals& totals) {
@@ -79,7 +81,8 @@ void addToTotals(const StepReport& report, RunTotals& totals) {
 World::World(SimulationSettings settings) : settings_(std::move(settings)), state_(std::make_unique<WorldState>()) {
   const std::vector<MovingSolid> solids = makeBodies(settings_, *state_);
   state_->gas = makeFluid(settings_.fluid, stampSolids(settings_.fluid, solids), settings_.seed);
-  emitFuel(state_->particles, settings_.particles, 0, settings_.fluid.ambientTemperature, settings_.seed, state_->emitted);
+  emitFuel(state_->particles, settings_.particles, 0, settings_.fluid.ambientTemperature, settings_.seed,
+           state_->emitted);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;

@@ -16,7 +16,8 @@ struct RunTotals;
 
 class World {
  public:
-  /// Fractures the bodies, stamps the scenery into the gas, lays out the first particles. Throws InputError / DamagedFile.
+  /// Fractures the bodies, stamps the scenery into the gas, lays out the first particles. Throws InputError /
+  /// DamagedFile.
   explicit World(SimulationSettings settings);
   ~World();
   World(World&&) noexcept;

@@ -24,8 +24,8 @@ struct RunTotals {
 
 struct WorldState {
   int frame = 1;
-  double time = 0;           ///< [s]
-  double largestSource = 0;  ///< phi [1/s] of the last sub-step
+  double time = 0;            ///< [s]
+  double largestSource = 0;   ///< phi [1/s] of the last sub-step
   std::uint64_t burning = 0;  ///< particles in that sub-step
   FluidState gas;
   ParticleSet particles;

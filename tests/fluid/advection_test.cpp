@@ -101,7 +101,9 @@ TEST(Advection, MirroredFlowGivesTheMirroredResult) {
     }
     EXPECT_LT(largestDifference(mirrored(mirror.temperature, axis).values, gas.temperature.values), 1e-4);
     for (int a = 0; a < 3; ++a)
-      EXPECT_LT(largestDifference(mirrored(mirror.velocity, axis).component(a).values, gas.velocity.component(a).values), 1e-6);
+      EXPECT_LT(
+          largestDifference(mirrored(mirror.velocity, axis).component(a).values, gas.velocity.component(a).values),
+          1e-6);
   }
 }
 

@@ -98,7 +98,9 @@ TEST(Forces, ConfinementSpinsUpAVortexAndLeavesStillGasAlone) {
   confineVorticity(still, s, 0.1);
   for (const float u : still.velocity.u.values) EXPECT_EQ(u, 0);
   FluidState gas = gasIn(s);
-  const auto around = [](const Vec3d& p) { return std::exp(-20 * ((p.x - .5) * (p.x - .5) + (p.y - .5) * (p.y - .5))); };
+  const auto around = [](const Vec3d& p) {
+    return std::exp(-20 * ((p.x - .5) * (p.x - .5) + (p.y - .5) * (p.y - .5)));
+  };
   setComponent(gas.velocity.u, [&](const Vec3d& p) { return -(p.y - .5) * around(p); });
   setComponent(gas.velocity.v, [&](const Vec3d& p) { return (p.x - .5) * around(p); });
   const float before = gas.velocity.v(10, 8, 8);

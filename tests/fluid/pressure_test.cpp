@@ -53,26 +53,30 @@ TEST(Projection, TheDivergenceEqualsItsSourceToTheTolerance) {
   EXPECT_NEAR(outwardVolume(gas, s) / createdVolume(gas, s), 1, 1e-4);
 }
 
-/// Largest error of the pressure of a manufactured solution p = sin(pi x) sin(2 pi y) sin(pi z), zero on the open faces.
+/// Largest error of the pressure of a manufactured solution p = sin(pi x) sin(2 pi y) sin(pi z), zero on the open
+/// faces.
 double manufacturedError(int n) {
   FluidSettings s = box({n, n, n});
   s.pressure = ConjugateGradient{1e-10, 4000};
   const PressureOperator op = makePressureOperator(stampSolids(s, {}), s.faces);
   const Vec3i padded{n + 2, n + 2, n + 2};
   PressureScratch scratch;
-  for (Grid3<double>* v : {&scratch.x, &scratch.r, &scratch.d, &scratch.q}) *v = Grid3<double>(padded, {}, s.cellSize, 0.0);
+  for (Grid3<double>* v : {&scratch.x, &scratch.r, &scratch.d, &scratch.q})
+    *v = Grid3<double>(padded, {}, s.cellSize, 0.0);
   const auto exact = [&](int i, int j, int k) {
     const double h = s.cellSize;
     return std::sin(pi * (i + .5) * h) * std::sin(2 * pi * (j + .5) * h) * std::sin(pi * (k + .5) * h);
   };
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) scratch.r(i + 1, j + 1, k + 1) = 6 * pi * pi * s.cellSize * s.cellSize * exact(i, j, k);
+      for (int i = 0; i < n; ++i)
+        scratch.r(i + 1, j + 1, k + 1) = 6 * pi * pi * s.cellSize * s.cellSize * exact(i, j, k);
   solveConjugateGradient(op, std::get<ConjugateGradient>(s.pressure), scratch);
   double largest = 0;
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(scratch.x(i + 1, j + 1, k + 1) - exact(i, j, k)));
+      for (int i = 0; i < n; ++i)
+        largest = std::max(largest, std::abs(scratch.x(i + 1, j + 1, k + 1) - exact(i, j, k)));
   return largest;
 }
 
@@ -103,7 +107,9 @@ TEST(Projection, MirroredGasGivesTheMirroredResult) {
     project(gas, s, 0.1, scratch);
     project(mirror, s, 0.1, other);
     for (int a = 0; a < 3; ++a)
-      EXPECT_LT(largestDifference(mirrored(mirror.velocity, axis).component(a).values, gas.velocity.component(a).values), 2e-6);
+      EXPECT_LT(
+          largestDifference(mirrored(mirror.velocity, axis).component(a).values, gas.velocity.component(a).values),
+          2e-6);
   }
 }
 

@@ -10,20 +10,14 @@
 #include "mesh/mesh_samples.h"
 #include "mesh/mesh_topology.h"
 #include "mesh/shapes.h"
+#include "scratch_directory.h"
 
 namespace brisance {
 namespace {
 
 class MeshFile : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "brisance_mesh_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    directory_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
-  std::filesystem::path path() const { return directory_ / "mesh.obj"; }
+  std::filesystem::path path() const { return scratch_ / "mesh.obj"; }
   TriangleMesh read(const std::string& text) const {
     std::ofstream(path(), std::ios::binary) << text;
     return readObj(path());
@@ -41,7 +35,7 @@ class MeshFile : public testing::Test {
     return "";
   }
 
-  std::filesystem::path directory_;
+  ScratchDirectory scratch_;
 };
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -172,11 +166,11 @@ TEST_F(MeshFile, EveryDamagedByteEitherReadsOrIsRefused) {
 }
 
 TEST_F(MeshFile, SaysThatAFileIsNotThere) {
-  EXPECT_THROW(readObj(directory_ / "none.obj"), InputError);
-  EXPECT_THROW(readObj(directory_), InputError);
+  EXPECT_THROW(readObj(scratch_ / "none.obj"), InputError);
+  EXPECT_THROW(readObj(scratch_.path()), InputError);
   // A pipe that nobody writes to would never end.
-  ASSERT_EQ(mkfifo((directory_ / "pipe").c_str(), 0600), 0);
-  EXPECT_THROW(readObj(directory_ / "pipe"), InputError);
+  ASSERT_EQ(mkfifo((scratch_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(readObj(scratch_ / "pipe"), InputError);
 }
 
 TEST_F(MeshFile, ReadsAFaceOfManyCornersAndOneVertexOfManyNormals) {

@@ -33,7 +33,8 @@ TEST(Burning, FuelBurntTimesItsHeatIsTheHeatOnTheGrid) {
     BurnSettings s;
     s.depositRadius = radius;
     ParticleSet p;
-    for (int n = 0; n < 50; ++n) append(p, {Vec3d(.3 + .008 * n, .5, .45), {}, s.mass, 300, ParticleKind::fuel, n % 2 == 0});
+    for (int n = 0; n < 50; ++n)
+      append(p, {Vec3d(.3 + .008 * n, .5, .45), {}, s.mass, 300, ParticleKind::fuel, n % 2 == 0});
     const double dt = 0.01;
     const std::vector<double> burnt = burn(p, s, dt);
     Grid3<float> rate = box.temperature;
@@ -103,7 +104,8 @@ TEST(Burning, SootMassIsKept) {
     soot += p.mass[n];
   }
   EXPECT_NEAR(soot / (burnt * s.sootPerMass), 1, 1e-12);
-  EXPECT_NEAR(static_cast<double>(p.size()), 1 + s.mass * s.sootPerMass / s.sootThreshold, 1);  // the last may lack a rounding
+  EXPECT_NEAR(static_cast<double>(p.size()), 1 + s.mass * s.sootPerMass / s.sootThreshold,
+              1);  // the last may lack a rounding
 }
 
 TEST(Burning, TheThesisMakesOneSootParticlePerFuelParticle) {
@@ -189,7 +191,7 @@ TEST(Walls, StopParticlesFromBothSides) {
       for (int n = 0; n < 50; ++n) stepParticles(p, box.around(), s, 0.02);
       ASSERT_EQ(p.size(), 1u);
       EXPECT_NEAR(p.position[0][axis], 0.5, 1e-6);
-      EXPECT_EQ(p.position[0][axis] < 0.5, sign > 0);
+      EXPECT_EQ(p.position[0][axis]<0.5, sign> 0);
     }
 }
 

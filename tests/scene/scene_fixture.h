@@ -2,7 +2,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -12,31 +11,18 @@
 
 #include "base/check.h"
 #include "scene/scene_file.h"
+#include "scratch_directory.h"
 
 namespace brisance {
 
-/// A directory that is empty at first and gone at last.
-class FreshDirectory {
+/// A fresh directory to which a test writes its files.
+class FreshDirectory : public ScratchDirectory {
  public:
-  FreshDirectory() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "brisance_scene_XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~FreshDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  FreshDirectory(const FreshDirectory&) = delete;
-  FreshDirectory& operator=(const FreshDirectory&) = delete;
-  const std::filesystem::path& path() const { return path_; }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
+    std::filesystem::create_directories((path() / name).parent_path());
+    std::ofstream(path() / name, std::ios::binary) << text;
+    return path() / name;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// What goes wrong with a text that stands in "s.toml", or "nothing".
