@@ -11,18 +11,19 @@ namespace brisance {
 namespace {
 
 constexpr std::size_t largestFile = 16u << 20;  // bytes; the largest scenes people write by hand hold a few hundred kB
-constexpr int longestKey = 32;  // parts; bounds how deeply tables can nest, and so the stack to walk them
+constexpr int longestKey = 32;   // parts; bounds how deeply tables can nest, and so the stack to walk them
+constexpr int deepestNode = 64;  // a scene has no use for more than a few
 
-SceneNode convert(const toml::node& node, const std::string& fileName);
+SceneNode convert(const toml::node& node, const std::string& fileName, int depth);
 
 /// toml++ sorts keys by name; people read, and expect to be told of mistakes, in the order of the file.
-void convertTable(const toml::table& table, SceneNode& out, const std::string& fileName) {
+void convertTable(const toml::table& table, SceneNode& out, const std::string& fileName, int depth) {
   std::vector<std::pair<const toml::key*, const toml::node*>> entries;
   for (const auto& [key, value] : table) entries.emplace_back(&key, &value);
   std::stable_sort(entries.begin(), entries.end(),
                    [](const auto& a, const auto& b) { return a.first->source().begin < b.first->source().begin; });
   for (const auto& [key, value] : entries) {
-    out.children.push_back(convert(*value, fileName));
+    out.children.push_back(convert(*value, fileName, depth + 1));
     out.children.back().key = std::string(key->str());
     out.children.back().place = fmt::format("{}:{}", fileName, key->source().begin.line);
   }
@@ -47,13 +48,16 @@ SceneNode::Kind kindOf(const toml::node& node) {
   }
 }
 
-SceneNode convert(const toml::node& node, const std::string& fileName) {
+SceneNode convert(const toml::node& node, const std::string& fileName, int depth) {
+  if (depth > deepestNode)
+    throw InputError(
+        fmt::format("{}:{}: must nest at most {} tables and arrays", fileName, node.source().begin.line, deepestNode));
   SceneNode out;
   out.kind = kindOf(node);
   out.place = fmt::format("{}:{}", fileName, node.source().begin.line);
-  if (const auto* table = node.as_table()) convertTable(*table, out, fileName);
+  if (const auto* table = node.as_table()) convertTable(*table, out, fileName, depth);
   if (const auto* array = node.as_array())
-    for (const toml::node& element : *array) out.children.push_back(convert(element, fileName));
+    for (const toml::node& element : *array) out.children.push_back(convert(element, fileName, depth + 1));
   if (const auto* text = node.as_string()) out.text = text->get();
   if (const auto* number = node.as_floating_point()) out.number = number->get();
   if (const auto* flag = node.as_boolean()) out.flag = flag->get();
@@ -93,7 +97,7 @@ SceneNode parseToml(const std::string& text, const std::string& fileName) {
   refuseStrangeBytes(text, fileName);
   refuseLongKeys(text, fileName);
   try {
-    SceneNode root = convert(toml::parse(text), fileName);
+    SceneNode root = convert(toml::parse(text), fileName, 0);
     root.place = fileName;
     return root;
   } catch (const toml::parse_error& error) {
