@@ -3,19 +3,25 @@
 #include <map>
 
 #include "base/check.h"
+#include "fracture/breadth_first.h"
 #include "mesh/extrusion.h"
 #include "mesh/mesh_topology.h"
 
 namespace brisance {
 namespace {
 
+struct RunPartitioner {
+  const FractureGraph& graph;
+  int pieces;
+  Partition operator()(const BreadthFirst&) const { return partitionBreadthFirst(graph, pieces); }
+  template <class Other>
+  Partition operator()(const Other&) const {
+    throw InputError("fracture: method: only breadth_first is known here");
+  }
+};
+
 Partition partition(const FractureGraph& graph, const FractureSettings& settings) {
-  struct Run {
-    const FractureGraph& graph;
-    int pieces;
-    Partition operator()(const BreadthFirst&) const { return partitionBreadthFirst(graph, pieces); }
-  };
-  return std::visit(Run{graph, settings.pieces}, settings.method);
+  return std::visit(RunPartitioner{graph, settings.pieces}, settings.method);
 }
 
 std::vector<std::vector<std::uint32_t>> trianglesByPiece(const Partition& partition) {

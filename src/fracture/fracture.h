@@ -1,21 +1,11 @@
 // A body is broken before time starts.
 #pragma once
 
-#include <variant>
-
-#include "fracture/breadth_first.h"
+#include "fracture/fracture_settings.h"
 #include "mesh/mass_properties.h"
 #include "mesh/triangulation.h"
 
 namespace brisance {
-
-struct BreadthFirst {};  ///< the connected, any-m variant of thesis Algorithm 5
-using FractureMethod = std::variant<BreadthFirst>;
-
-struct FractureSettings {
-  FractureMethod method;
-  int pieces = 1;  ///< 1: left whole
-};
 
 /// Where two pieces touch.
 struct Bond {

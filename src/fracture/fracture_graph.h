@@ -12,7 +12,9 @@ namespace brisance {
 struct FractureGraph {
   std::vector<std::uint32_t> first;    ///< node count + 1 entries
   std::vector<std::uint32_t> targets;  ///< each edge twice
-  std::vector<double> weights;         ///< per entry of targets; empty: all one
+  std::vector<double> weights;         ///< per entry of targets, above 0: the strength of the edge; empty: all one
+  std::vector<double> sizes;           ///< per node: triangles, area or volume; empty: all one
+  std::vector<Vec3d> places;           ///< per node [m], for cells of space; may be empty
   int nodeCount() const { return static_cast<int>(first.size()) - 1; }
   std::span<const std::uint32_t> neighbours(std::uint32_t node) const {
     return {targets.data() + first[node], first[node + 1] - first[node]};

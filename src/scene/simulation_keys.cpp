@@ -11,7 +11,12 @@ constexpr std::string_view pressureNames[] = {"conjugate_gradient"};
 constexpr std::string_view quadratureNames[] = {"area_quadrature", "vertex_sum"};
 constexpr std::string_view shapeNames[] = {"sphere", "box", "rectangle", "mesh", "pane"};
 constexpr std::string_view triangulationNames[] = {"trisection", "delaunay"};
-constexpr std::string_view fractureNames[] = {"breadth_first"};
+constexpr std::string_view fractureNames[] = {"breadth_first", "breadth_first_thesis", "curvature", "spectral",
+                                              "voronoi"};
+constexpr std::string_view splitNames[] = {"list", "level"};
+constexpr std::string_view curvatureWeightNames[] = {"clipped", "raw"};
+constexpr std::string_view insideNames[] = {"all", "smallest"};
+constexpr std::string_view edgeWeightNames[] = {"unit", "length"};
 
 void describeFaces(KeyVisitor& v, Faces& faces) {
   for (std::size_t i = 0; i < faces.size(); ++i)
@@ -171,6 +176,42 @@ void describeBodyMass(KeyVisitor& v, BodyKeys& keys) {
         keys.massPerArea);
 }
 
+void describeMethod(KeyVisitor&, BreadthFirst&) {}
+void describeMethod(KeyVisitor& v, BreadthFirstThesis& method) {
+  visitChoice(v, {"split", "", anyValue, "where Algorithm 5 cuts: half of the list, or half of the levels"}, splitNames,
+              method.split);
+}
+void describeMethod(KeyVisitor& v, Curvature& method) {
+  visitChoice(v, {"weights", "", anyValue, "clipped suits noisy meshes, raw is the formula as it stands"},
+              curvatureWeightNames, method.weights);
+  visit(v, {"parts", "", between(0, 1e5), "cut by curvature, and further breadth-first inside; 0: all by curvature"},
+        method.parts);
+  visitChoice(v, {"inside", "", anyValue, "which parts are broken further"}, insideNames, method.inside);
+}
+void describeMethod(KeyVisitor& v, Spectral& method) {
+  visitChoice(v, {"weights", "", anyValue, "all edges alike, or by their length"}, edgeWeightNames, method.weights);
+}
+void describeMethod(KeyVisitor& v, Voronoi& method) {
+  visit(v, {"impact", "m", anyValue, "pieces are smaller near this point of the body", {}, "none: even cells"},
+        method.impact);
+  visit(v, {"crowding", "", between(0, 10), "how much smaller"}, method.crowding);
+}
+
+void describeFracture(KeyVisitor& v, FractureSettings& fracture) {
+  v.enter({"method", "", anyValue, "how pieces are chosen"}, true);
+  visitAlternatives(v, fractureNames, fracture.method,
+                    [](KeyVisitor& inner, auto& method) { describeMethod(inner, method); });
+  v.leave();
+  visit(v, {"pieces", "", between(1, 1e5), "1 leaves it whole", {"n_r", "5.1, 5.3"}}, fracture.pieces);
+  visit(v, {"refine", "", anyValue, "shorten the cuts and even out the sizes afterwards"}, fracture.refine);
+  visit(v, {"minimum_share", "", between(0, 1), "least size of a piece, relative to the mean"}, fracture.minimumShare);
+  visit(v, {"solid", "", anyValue, "pieces of a closed mesh are solids instead of shells"}, fracture.solid.enabled);
+  visit(v,
+        {"cells_per_piece", "", between(0, 1e4), "of solid pieces: how rough the inside faces are; 0: by the method"},
+        fracture.solid.cellsPerPiece);
+  visit(v, {"flat", "", anyValue, "inside faces of solid pieces are flat"}, fracture.solid.flat);
+}
+
 }  // namespace
 
 void describeGas(KeyVisitor& v, SceneDraft& draft) {
@@ -224,11 +265,7 @@ void describeBody(KeyVisitor& v, BodyKeys& keys) {
   visit(v, {"material", "", anyValue, "name of one of the materials"}, keys.body.material);
   describeBodyMass(v, keys);
   visit(v, {"temperature", "K", atLeast(0), "of the body"}, keys.body.temperature);
-  visitTable(v, "fracture", "how it breaks, before time starts", keys.body.fracture,
-             [](KeyVisitor& inner, FractureSettings& fracture) {
-               visitType(inner, {"method", "", anyValue, "how pieces are chosen"}, fractureNames, fracture.method);
-               visit(inner, {"pieces", "", between(1, 1e5), "1 leaves it whole", {"n_r", "5.1, 5.3"}}, fracture.pieces);
-             });
+  visitTable(v, "fracture", "how it breaks, before time starts", keys.body.fracture, describeFracture);
 }
 
 }  // namespace brisance

@@ -9,7 +9,11 @@
 namespace brisance {
 namespace {
 
-FractureSettings into(int pieces) { return {BreadthFirst{}, pieces}; }
+FractureSettings into(int pieces) {
+  FractureSettings settings;
+  settings.pieces = pieces;
+  return settings;
+}
 
 PaneSettings paneOf(int points, const Triangulation& method) {
   PaneSettings pane;

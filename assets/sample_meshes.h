@@ -1,0 +1,32 @@
+// Meshes that the project makes itself: for tests, benchmarks and the pictures of docs/.
+#pragma once
+
+#include <functional>
+
+#include "mesh/triangle_mesh.h"
+
+namespace brisance::samples {
+
+/// A function of space that is below 0 inside a body.
+using Implicit = std::function<double(const Vec3d&)>;
+
+/// Closed, oriented surface of a body inside `box` by surface nets (Gibson 1998): one vertex per cell that the surface
+/// crosses, one quadrilateral per lattice edge. The lattice step is `step` [m]. The body must not touch the box.
+TriangleMesh surfaceNet(const Implicit& body, const Box3& box, double step);
+/// Likewise with about `triangles` triangles.
+TriangleMesh surfaceNetOf(const Implicit& body, const Box3& box, long triangles);
+
+/// Bumpy geodesic sphere of radius about 1: 20 n^2 triangles, the count nearest to `triangles`.
+TriangleMesh bumpySphere(long triangles);
+/// Two bumpy balls of radius 1 and 0.8, joined by a neck of radius 0.18 along x.
+TriangleMesh dumbbell(long triangles);
+/// Radii 1 and 0.4, about the z axis.
+TriangleMesh torus(long triangles);
+/// A sheet of n x 2n cells in x and y that is bent along x = 0 by `degrees`, over a width of a tenth of its length
+/// (thesis Figure 4.4): open, curved along the fold only as a bumpy sheet is.
+TriangleMesh foldedSheet(int cells, double degrees);
+
+/// Sum of four octaves of smooth lattice noise, from about -2 to 2.
+double noise(const Vec3d& p);
+
+}  // namespace brisance::samples
