@@ -113,7 +113,7 @@ Picture drawPieces(const std::vector<FrameBody>& pieces, const PiecePictureSetti
   render.width = settings.width;
   render.height = settings.height;
   render.samples = settings.samples;
-  render.background = {0.93f, 0.93f, 0.93f};
+  render.background = {2, 2, 2};  // near white on the screen, after the tone curve
   render.ambientLight = {0.22f, 0.22f, 0.23f};
   render.volume.drawn = false;
   render.camera.keys = {cameraFor(frame.bodies, middle, settings)};
