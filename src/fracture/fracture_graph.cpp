@@ -23,4 +23,15 @@ FractureGraph triangleGraph(const std::vector<Triangle>& triangles, std::size_t 
 
 FractureGraph triangleGraph(const TriangleMesh& mesh) { return triangleGraph(mesh.triangles, mesh.vertices.size()); }
 
+void numberByLowestNode(Partition& partition) {
+  constexpr int none = -1;
+  std::vector<int> numberOf(partition.count, none);
+  int next = 0;
+  for (int& piece : partition.pieceOf) {
+    int& number = numberOf[piece];
+    if (number == none) number = next++;
+    piece = number;
+  }
+}
+
 }  // namespace brisance

@@ -31,4 +31,7 @@ struct Partition {
   int count = 0;
 };
 
+/// Numbers pieces in order of their lowest node.
+void numberByLowestNode(Partition& partition);
+
 }  // namespace brisance
