@@ -30,13 +30,15 @@ std::uint32_t cutPlace(const SubGraph& part, int firstPieces, int pieces) {
 /// A part numbered from one end, cut in two connected sides.
 struct Cut {
   std::uint32_t place;    ///< nodes below it are the first side's
+  Sweep first;            ///< the first side, open
   Sweep second;           ///< the second side, numbered from the far end
   double secondSize = 0;  ///< of its nodes
   explicit Cut(const SubGraph& part, std::uint32_t place_);
 };
 
 /// The nodes from `place` on without all islands but their largest; of equals the one nearer to the end.
-Cut::Cut(const SubGraph& part, std::uint32_t place_) : place(place_), second(part.nodeCount()) {
+Cut::Cut(const SubGraph& part, std::uint32_t place_)
+    : place(place_), first(part.nodeCount()), second(part.nodeCount()) {
   const std::uint32_t end = part.nodeCount();
   second.openRange(place, end);
   std::uint32_t left = end - place, largest = 0, largestStart = 0;
@@ -52,7 +54,11 @@ Cut::Cut(const SubGraph& part, std::uint32_t place_) : place(place_), second(par
     for (std::uint32_t node = place; node < end; ++node)
       if (second.isOpen(node)) second.close(node);
   }
-  for (const std::uint32_t node : second.order()) secondSize += sizeOf(part, node);
+  first.openRange(0, end);
+  for (const std::uint32_t node : second.order()) {
+    first.close(node);
+    secondSize += sizeOf(part, node);
+  }
 }
 
 /// Divides parts and notes the piece of every node; a part's pieces have consecutive numbers.
@@ -90,13 +96,10 @@ class Divider {
     return std::clamp(share, std::max(1, pieces - nodesOfSecond), std::min(pieces - 1, nodesOfFirst));
   }
 
-  void divideFirst(const SubGraph& part, const Cut& cut, int firstPiece, int pieces) {
-    Sweep sweep(part.nodeCount());
-    sweep.openRange(0, part.nodeCount());
-    for (const std::uint32_t node : cut.second.order()) sweep.close(node);
-    if (pieces > 1) return divide(orderedFromAnEnd(part, sweep, cut.place - 1), firstPiece, pieces);
+  void divideFirst(const SubGraph& part, Cut& cut, int firstPiece, int pieces) {
+    if (pieces > 1) return divide(orderedFromAnEnd(part, cut.first, cut.place - 1), firstPiece, pieces);
     for (std::uint32_t node = 0; node < part.nodeCount(); ++node)
-      if (sweep.isOpen(node)) pieceOf_[part.names[node]] = firstPiece;
+      if (cut.first.isOpen(node)) pieceOf_[part.names[node]] = firstPiece;
   }
 
   void divideSecond(const SubGraph& part, Cut& cut, int firstPiece, int pieces) {

@@ -1,15 +1,37 @@
 // Part of a graph, numbered so that neighbours lie close together in memory: what breadth-first cuts work on.
 #pragma once
 
+#include <memory>
+#include <new>
+#include <utility>
+
 #include "fracture/fracture_graph.h"
 
 namespace brisance {
 
+/// Leaves new elements as the memory is: clearing what will be written anyway costs as much as a sweep.
+template <class T>
+struct Unset : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = Unset<U>;
+  };
+  template <class U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+using Numbers = std::vector<std::uint32_t, Unset<std::uint32_t>>;
+
 /// A connected part of a graph with numbers of its own. Made by `orderedFromAnEnd`, the numbers are a breadth-first
 /// order from one end of the part, so that every prefix of them is connected.
 struct SubGraph {
-  std::vector<std::uint32_t> names;  ///< per node: its number in the whole graph
-  std::vector<std::uint32_t> first, targets;
+  Numbers names;  ///< per node: its number in the whole graph
+  Numbers first, targets;
   std::vector<double> sizes;  ///< per node; empty: all one
   std::uint32_t nodeCount() const { return static_cast<std::uint32_t>(names.size()); }
 };
@@ -48,13 +70,13 @@ class Sweep {
   template <class Graph>
   SubGraph rows(const Graph& graph) const;
 
-  std::vector<std::uint32_t> number_;
-  std::vector<std::uint32_t> order_;  ///< one longer than the nodes: the loop writes before it knows
+  Numbers number_;
+  Numbers order_;  ///< one longer than the nodes: the loop writes before it knows
   std::uint32_t count_ = 0;
 };
 
-/// The open nodes, which `start` must all reach, as a part numbered from a far end: the last node of the sweep from
-/// the last node of the sweep from `start`... begins a third one.
+/// The open nodes, which `start` must all reach, as a part numbered from an end: from the last node of a sweep from
+/// `start`.
 template <class Graph>
 SubGraph orderedFromAnEnd(const Graph& graph, Sweep& sweep, std::uint32_t start) {
   sweep.from(start, graph);
