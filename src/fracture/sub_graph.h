@@ -1,6 +1,8 @@
 // Part of a graph, numbered so that neighbours lie close together in memory: what breadth-first cuts work on.
 #pragma once
 
+#include <tbb/scalable_allocator.h>
+
 #include <memory>
 #include <new>
 #include <utility>
@@ -11,7 +13,7 @@ namespace brisance {
 
 /// Leaves new elements as the memory is: clearing what will be written anyway costs as much as a sweep.
 template <class T>
-struct Unset : std::allocator<T> {
+struct Unset : tbb::scalable_allocator<T> {
   template <class U>
   struct rebind {
     using other = Unset<U>;
