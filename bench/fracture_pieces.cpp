@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "fracture/breadth_first.h"
+#include "fracture/refine_cut.h"
 
 #ifdef BRISANCE_HAS_METIS
 #include <metis.h>
@@ -134,6 +135,8 @@ void add(const std::string& size, long triangles, bool shuffle) {
   row("Brisance", [](const Input& in) { return partitionBreadthFirst(in.graph, pieces).pieceOf; });
   row("Brisance_from_mesh",
       [](const Input& in) { return partitionBreadthFirst(triangleGraph(in.mesh), pieces).pieceOf; });
+  row("Brisance_refined",
+      [](const Input& in) { return refineCut(in.graph, partitionBreadthFirst(in.graph, pieces)).pieceOf; });
 #ifdef BRISANCE_HAS_METIS
   row("Metis", metis);
 #endif
