@@ -1,21 +1,13 @@
 #include "fracture/breadth_first.h"
 
 #include <cmath>
-#include <numeric>
-#include <queue>
 
 #include "base/check.h"
 #include "base/parallel.h"
-#include "fracture/sub_graph.h"
+#include "fracture/components.h"
 
 namespace brisance {
 namespace {
-
-double sizeOf(const SubGraph& part, std::uint32_t node) { return part.sizes.empty() ? 1 : part.sizes[node]; }
-
-double totalSize(const SubGraph& part) {
-  return part.sizes.empty() ? part.nodeCount() : std::accumulate(part.sizes.begin(), part.sizes.end(), 0.0);
-}
 
 /// How many nodes from the start hold first / pieces of the size; enough nodes on either side for its pieces.
 std::uint32_t cutPlace(const SubGraph& part, int firstPieces, int pieces) {
@@ -114,53 +106,6 @@ class Divider {
   std::vector<int>& pieceOf_;
 };
 
-/// Nodes [begin, end) of a graph, which no edge leaves.
-SubGraph slice(const SubGraph& graph, std::uint32_t begin, std::uint32_t end) {
-  SubGraph part;
-  part.names.assign(graph.names.begin() + begin, graph.names.begin() + end);
-  if (!graph.sizes.empty()) part.sizes.assign(graph.sizes.begin() + begin, graph.sizes.begin() + end);
-  const std::uint32_t firstEntry = graph.first[begin];
-  for (std::uint32_t node = begin; node <= end; ++node) part.first.push_back(graph.first[node] - firstEntry);
-  for (std::uint32_t entry = firstEntry; entry < graph.first[end]; ++entry)
-    part.targets.push_back(graph.targets[entry] - begin);
-  return part;
-}
-
-std::vector<SubGraph> components(const FractureGraph& graph) {
-  const auto nodes = static_cast<std::uint32_t>(graph.nodeCount());
-  Sweep sweep(nodes);
-  sweep.openRange(0, nodes);
-  std::vector<std::uint32_t> begins{0};
-  for (std::uint32_t node = 0; node < nodes; ++node)
-    if (sweep.isOpen(node)) begins.push_back(begins.back() + sweep.from(node, graph));
-  SubGraph all = sweep.part(graph);
-  std::vector<SubGraph> result;
-  if (begins.size() == 2) {
-    result.push_back(std::move(all));
-    return result;
-  }
-  for (std::size_t i = 0; i + 1 < begins.size(); ++i) result.push_back(slice(all, begins[i], begins[i + 1]));
-  return result;
-}
-
-/// One piece for each part, and the others one by one to the part that has most size for each of its pieces.
-std::vector<int> piecesOfParts(const std::vector<SubGraph>& parts, int pieces) {
-  std::vector<int> result(parts.size(), 1);
-  std::priority_queue<std::pair<double, std::int64_t>> wanting;  // of equals the one that comes first
-  const auto enter = [&](std::int64_t part) {
-    if (result[part] < static_cast<int>(parts[part].nodeCount()))
-      wanting.push({totalSize(parts[part]) / result[part], -part});
-  };
-  for (std::int64_t part = 0; part < static_cast<std::int64_t>(parts.size()); ++part) enter(part);
-  for (auto given = static_cast<int>(parts.size()); given < pieces; ++given) {
-    const std::int64_t part = -wanting.top().second;
-    wanting.pop();
-    ++result[part];
-    enter(part);
-  }
-  return result;
-}
-
 SubGraph fromAnEnd(const SubGraph& part) {
   Sweep sweep(part.nodeCount());
   sweep.openRange(0, part.nodeCount());
@@ -171,17 +116,23 @@ SubGraph fromAnEnd(const SubGraph& part) {
 
 Partition partitionBreadthFirst(const FractureGraph& graph, int pieces) {
   CHECK(pieces >= 1, "pieces {}", pieces);
-  if (graph.nodeCount() < pieces)
-    throw InputError(fmt::format("fracture: pieces: must be at most the number of triangles, {}, got {}",
-                                 graph.nodeCount(), pieces));
-  const std::vector<SubGraph> parts = components(graph);
-  const std::vector<int> shares = piecesOfParts(parts, pieces);
+  checkPieceCount(graph, pieces);
+  const std::vector<SubGraph> parts = componentsOf(graph);
+  const std::vector<int> shares = sharePieces(parts, pieces);
   Partition partition{std::vector<int>(graph.nodeCount()), 0};
   Divider divider(partition.pieceOf);
   for (std::size_t i = 0; i < parts.size(); partition.count += shares[i++])
     divider.divide(fromAnEnd(parts[i]), partition.count, shares[i]);
   numberByLowestNode(partition);
   return partition;
+}
+
+std::vector<std::uint32_t> breadthFirstHalf(const SubGraph& part) {
+  const SubGraph ordered = fromAnEnd(part);
+  const Cut cut(ordered, cutPlace(ordered, 1, 2));
+  std::vector<std::uint32_t> half;
+  for (const std::uint32_t node : cut.second.order()) half.push_back(ordered.names[node]);
+  return half;
 }
 
 }  // namespace brisance

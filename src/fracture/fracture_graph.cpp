@@ -1,5 +1,6 @@
 #include "fracture/fracture_graph.h"
 
+#include "base/check.h"
 #include "mesh/mesh_topology.h"
 
 namespace brisance {
@@ -22,6 +23,12 @@ FractureGraph triangleGraph(const std::vector<Triangle>& triangles, std::size_t 
 }
 
 FractureGraph triangleGraph(const TriangleMesh& mesh) { return triangleGraph(mesh.triangles, mesh.vertices.size()); }
+
+void checkPieceCount(const FractureGraph& graph, int pieces) {
+  if (graph.nodeCount() < pieces)
+    throw InputError(fmt::format("fracture: pieces: must be at most the number of triangles, {}, got {}",
+                                 graph.nodeCount(), pieces));
+}
 
 void numberByLowestNode(Partition& partition) {
   constexpr int none = -1;

@@ -31,6 +31,9 @@ struct Partition {
   int count = 0;
 };
 
+/// Throws InputError if there are fewer nodes than pieces.
+void checkPieceCount(const FractureGraph& graph, int pieces);
+
 /// Numbers pieces in order of their lowest node.
 void numberByLowestNode(Partition& partition);
 

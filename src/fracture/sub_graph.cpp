@@ -1,5 +1,7 @@
 #include "fracture/sub_graph.h"
 
+#include <numeric>
+
 namespace brisance {
 namespace {
 
@@ -7,6 +9,10 @@ std::uint32_t nameOf(const SubGraph& graph, std::uint32_t node) { return graph.n
 std::uint32_t nameOf(const FractureGraph&, std::uint32_t node) { return node; }
 
 }  // namespace
+
+double totalSize(const SubGraph& part) {
+  return part.sizes.empty() ? part.nodeCount() : std::accumulate(part.sizes.begin(), part.sizes.end(), 0.0);
+}
 
 template <class Graph>
 SubGraph Sweep::rows(const Graph& graph) const {

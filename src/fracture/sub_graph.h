@@ -38,6 +38,9 @@ struct SubGraph {
   std::uint32_t nodeCount() const { return static_cast<std::uint32_t>(names.size()); }
 };
 
+inline double sizeOf(const SubGraph& part, std::uint32_t node) { return part.sizes.empty() ? 1 : part.sizes[node]; }
+double totalSize(const SubGraph& part);
+
 /// Numbers given by breadth-first sweeps over some nodes of a graph, and the nodes in the order of these numbers.
 class Sweep {
  public:
@@ -47,6 +50,10 @@ class Sweep {
   void open(std::uint32_t node) { number_[node] = unnumbered; }
   void openRange(std::uint32_t begin, std::uint32_t end) {
     std::fill(number_.begin() + begin, number_.begin() + end, unnumbered);
+  }
+  void closeAll() {
+    for (std::uint32_t i = 0; i < count_; ++i) number_[order_[i]] = closed;
+    count_ = 0;
   }
   void close(std::uint32_t node) { number_[node] = closed; }
   bool isOpen(std::uint32_t node) const { return number_[node] == unnumbered; }
