@@ -20,16 +20,16 @@ std::uint32_t cutPlace(const SubGraph& part, int firstPieces, int pieces) {
 }
 
 /// A part numbered from one end, cut in two connected sides.
-struct Cut {
+struct Sides {
   std::uint32_t place;    ///< nodes below it are the first side's
   Sweep first;            ///< the first side, open
   Sweep second;           ///< the second side, numbered from the far end
   double secondSize = 0;  ///< of its nodes
-  explicit Cut(const SubGraph& part, std::uint32_t place_);
+  explicit Sides(const SubGraph& part, std::uint32_t place_);
 };
 
 /// The nodes from `place` on without all islands but their largest; of equals the one nearer to the end.
-Cut::Cut(const SubGraph& part, std::uint32_t place_)
+Sides::Sides(const SubGraph& part, std::uint32_t place_)
     : place(place_), first(part.nodeCount()), second(part.nodeCount()) {
   const std::uint32_t end = part.nodeCount();
   second.openRange(place, end);
@@ -60,14 +60,14 @@ class Divider {
 
   void divide(const SubGraph& part, int firstPiece, int pieces) {
     if (pieces == 1) return assign(part, firstPiece);
-    Cut cut(part, cutPlace(part, (pieces + 1) / 2, pieces));
-    const int ofFirst = piecesOfFirst(part, cut, pieces);
+    Sides sides(part, cutPlace(part, (pieces + 1) / 2, pieces));
+    const int ofFirst = piecesOfFirst(part, sides, pieces);
     const auto side = [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i)
         if (i == 0)
-          divideFirst(part, cut, firstPiece, ofFirst);
+          divideFirst(part, sides, firstPiece, ofFirst);
         else
-          divideSecond(part, cut, firstPiece + ofFirst, pieces - ofFirst);
+          divideSecond(part, sides, firstPiece + ofFirst, pieces - ofFirst);
     };
     parallelFor(0, 2, part.nodeCount() < leastTask ? 2 : 1, side);
   }
@@ -80,27 +80,27 @@ class Divider {
   }
 
   /// In proportion to what the sides really hold, and never more than they have nodes.
-  static int piecesOfFirst(const SubGraph& part, const Cut& cut, int pieces) {
+  static int piecesOfFirst(const SubGraph& part, const Sides& sides, int pieces) {
     const double total = totalSize(part);
-    const auto share = static_cast<int>(std::lround(pieces * (total - cut.secondSize) / total));
-    const auto nodesOfSecond = static_cast<int>(cut.second.count());
+    const auto share = static_cast<int>(std::lround(pieces * (total - sides.secondSize) / total));
+    const auto nodesOfSecond = static_cast<int>(sides.second.count());
     const int nodesOfFirst = static_cast<int>(part.nodeCount()) - nodesOfSecond;
     return std::clamp(share, std::max(1, pieces - nodesOfSecond), std::min(pieces - 1, nodesOfFirst));
   }
 
-  void divideFirst(const SubGraph& part, Cut& cut, int firstPiece, int pieces) {
-    if (pieces > 1) return divide(orderedFromAnEnd(part, cut.first, cut.place - 1), firstPiece, pieces);
+  void divideFirst(const SubGraph& part, Sides& sides, int firstPiece, int pieces) {
+    if (pieces > 1) return divide(orderedFromAnEnd(part, sides.first, sides.place - 1), firstPiece, pieces);
     for (std::uint32_t node = 0; node < part.nodeCount(); ++node)
-      if (cut.first.isOpen(node)) pieceOf_[part.names[node]] = firstPiece;
+      if (sides.first.isOpen(node)) pieceOf_[part.names[node]] = firstPiece;
   }
 
-  void divideSecond(const SubGraph& part, Cut& cut, int firstPiece, int pieces) {
-    for (const std::uint32_t node : cut.second.order()) pieceOf_[part.names[node]] = firstPiece;
+  void divideSecond(const SubGraph& part, Sides& sides, int firstPiece, int pieces) {
+    for (const std::uint32_t node : sides.second.order()) pieceOf_[part.names[node]] = firstPiece;
     if (pieces == 1) return;
-    const std::uint32_t end = cut.second.order().back();
-    cut.second.reopen();
-    cut.second.from(end, part);
-    divide(cut.second.part(part), firstPiece, pieces);
+    const std::uint32_t end = sides.second.order().back();
+    sides.second.reopen();
+    sides.second.from(end, part);
+    divide(sides.second.part(part), firstPiece, pieces);
   }
 
   std::vector<int>& pieceOf_;
@@ -129,9 +129,9 @@ Partition partitionBreadthFirst(const FractureGraph& graph, int pieces) {
 
 std::vector<std::uint32_t> breadthFirstHalf(const SubGraph& part) {
   const SubGraph ordered = fromAnEnd(part);
-  const Cut cut(ordered, cutPlace(ordered, 1, 2));
+  const Sides sides(ordered, cutPlace(ordered, 1, 2));
   std::vector<std::uint32_t> half;
-  for (const std::uint32_t node : cut.second.order()) half.push_back(ordered.names[node]);
+  for (const std::uint32_t node : sides.second.order()) half.push_back(ordered.names[node]);
   return half;
 }
 
