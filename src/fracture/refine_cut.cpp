@@ -14,7 +14,7 @@ constexpr double slack = 0.06;               ///< pieces may be larger than want
 constexpr double leastShare = 0.8;           ///< and not smaller than this one
 constexpr double coarsestNodes = 24;         ///< of a piece of the mean size
 constexpr float leastGain = 1e-5f;           ///< of mean weights: below it is rounding
-constexpr std::uint32_t fewNodes = 200'000;  ///< levels up to this size are searched for moves that pay off later
+constexpr std::uint32_t fewNodes = 100'000;  ///< levels up to this size are searched for moves that pay off later
 
 /// Moves from the border while they shorten the cut, or keep it and even out sizes.
 void moveDownhill(PieceMoves& moves) {
@@ -133,7 +133,7 @@ Numbers refined(const CoarseLevel& level, Numbers pieceOf, const SizeLimits& lim
   moveDownhill(moves);
   if (level.nodeCount() <= fewNodes) {
     LocalSearch search(moves);
-    for (int pass = 0; pass < 3; ++pass) {
+    for (int pass = 0; pass < 2; ++pass) {
       search.pass();
       moveDownhill(moves);
     }

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <new>
+#include <type_traits>
 #include <utility>
 
 #include "fracture/fracture_graph.h"
@@ -75,6 +76,15 @@ class Sweep {
   SubGraph part(const FractureGraph& graph) const;
 
  private:
+  /// A whole graph may come in any order, each node far from the last in memory: asks for what the loop will soon read.
+  void fetchAhead(const FractureGraph& graph, std::uint32_t next, std::uint32_t count) const {
+    constexpr std::uint32_t step = 6;  // nodes
+    if (next + 3 * step >= count) return;
+    __builtin_prefetch(&graph.first[order_[next + 3 * step]]);
+    __builtin_prefetch(&graph.targets[graph.first[order_[next + 2 * step]]]);
+    for (const std::uint32_t target : graph.neighbours(order_[next + step])) __builtin_prefetch(&number_[target]);
+  }
+
   static constexpr std::uint32_t closed = 0xFFFFFFFFu, unnumbered = 0xFFFFFFFEu;
   template <class Graph>
   SubGraph rows(const Graph& graph) const;
@@ -107,6 +117,7 @@ std::uint32_t Sweep::from(std::uint32_t start, const Graph& graph) {
   number[start] = count;
   order[count++] = start;
   for (std::uint32_t next = before; next < count; ++next) {
+    if constexpr (std::is_same_v<Graph, FractureGraph>) fetchAhead(graph, next, count);
     const std::uint32_t node = order[next], end = first[node + 1];
     for (std::uint32_t edge = first[node]; edge < end; ++edge) {
       const std::uint32_t target = targets[edge], was = number[target];
