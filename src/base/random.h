@@ -17,6 +17,8 @@ enum class Stream : std::uint64_t {
   sootVelocity,
   pixelJitter,
   fractureSeed,
+  thesisRoot,
+  cellSeeds,
   test
 };
 
