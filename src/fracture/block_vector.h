@@ -1,4 +1,5 @@
-// A few vectors over the nodes of a graph, side by side, and sums over them that do not depend on the number of threads.
+// A few vectors over the nodes of a graph, side by side, and sums over them that do not depend on the number of
+// threads.
 #pragma once
 
 #include <array>

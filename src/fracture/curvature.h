@@ -15,6 +15,7 @@ std::vector<double> vertexStrength(const TriangleMesh& mesh, CurvatureWeights we
 struct VertexGraph {
   FractureGraph graph;                  ///< places are those of the vertices
   std::vector<std::uint32_t> vertexOf;  ///< mesh vertex of each node, rising
+  std::vector<Triangle> triangles;      ///< those asked for, by their nodes
 };
 
 /// Builds the vertex graphs of parts of one mesh, whose edges are as strong in each part as in the whole.
@@ -33,9 +34,9 @@ class VertexGraphs {
 
   const TriangleMesh& mesh_;
   Rule rule_;
-  std::vector<double> strength_;        ///< of vertices, for the rule of their mean
-  double leastLength_ = 0;              ///< [m] what an edge of no length counts as
-  std::vector<std::uint32_t> nodeOf_;   ///< scratch: node of a mesh vertex in the graph at hand
+  std::vector<double> strength_;       ///< of vertices, for the rule of their mean
+  double leastLength_ = 0;             ///< [m] what an edge of no length counts as
+  std::vector<std::uint32_t> nodeOf_;  ///< scratch: node of a mesh vertex in the graph at hand
 };
 
 VertexGraph vertexGraph(const TriangleMesh& mesh, const Curvature& curvature);

@@ -12,8 +12,8 @@
 namespace brisance {
 namespace {
 
-constexpr int directLimit = 100;      // nodes: a dense solution takes about a millisecond
-constexpr int coarseIterations = 4;   // what a start on the next finer level needs
+constexpr int directLimit = 100;     // nodes: a dense solution takes about a millisecond
+constexpr int coarseIterations = 4;  // what a start on the next finer level needs
 constexpr double coarseResidual = 1e-2;
 constexpr int mostIterations = 200;
 
@@ -82,7 +82,8 @@ BlockVector<K, double> coarsestVectors(const MultigridLevel& level) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
   BlockVector<K, double> x(n);
   for (std::uint32_t i = 0; i < n; ++i)
-    for (int c = 0; c < K; ++c) x[i][c] = solver.eigenvectors()(i, 1 + c) / std::sqrt(static_cast<double>(level.mass[i]));
+    for (int c = 0; c < K; ++c)
+      x[i][c] = solver.eigenvectors()(i, 1 + c) / std::sqrt(static_cast<double>(level.mass[i]));
   return x;
 }
 
@@ -109,13 +110,10 @@ EigenReport<K> iterate(const EigenProblem<Weight>& problem, MultigridCycle<K>& c
                        BlockVector<K, double>& x, double residual, int iterations) {
   const typename Lobpcg<K, Weight>::Precondition precondition =
       [&](const BlockVector<K, float>& b, BlockVector<K, float>& out) { cycle.apply(level, b, out); };
-  std::array<double, K> tolerances;
-  tolerances.fill(residual);
-  tolerances[K - 1] = std::sqrt(residual);
-  return Lobpcg<K, Weight>(problem, x, precondition).run(tolerances, iterations);
+  return Lobpcg<K, Weight>(problem, x, precondition).run(residual, iterations);
 }
 
-/// K pairs: all but the last to the tolerance, the last to its square root.
+/// K pairs: all but the last to the tolerance.
 template <int K>
 Eigenspace solveByMultigrid(const FractureGraph& graph, const GraphMultigrid& grid, double residual) {
   MultigridCycle<K> cycle(grid);

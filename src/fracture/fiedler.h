@@ -18,14 +18,10 @@ struct FiedlerVector {
 
 /// Of a connected graph of two nodes or more with weights above 0. Small graphs are solved directly, others by block
 /// conjugate gradients (lobpcg.h) with a multigrid cycle (multigrid_cycle.h) as preconditioner, begun on the coarse
-/// levels. lambda_3 is found to the square root of the tolerance, its eigenvalue therefore to about the tolerance.
+/// levels. lambda_3 is followed until it moves by less than ten times the tolerance in a step.
 /// Where several vectors belong to lambda_2, that along a fixed function of the nodes' places (of their numbers in a
 /// graph without places) is taken, and the sign so that it points along that function: the same graph has the same
 /// vector, up to the tolerance, whatever found it.
 FiedlerVector fiedlerVector(const FractureGraph& graph, const EigenTolerance& tolerance = {});
-
-/// The `count` smallest eigenvalues of any graph, each as often as it occurs but at most twice for each component above
-/// 0: there are as many zeros as components.
-std::vector<double> smallestEigenvalues(const FractureGraph& graph, int count, const EigenTolerance& tolerance = {});
 
 }  // namespace brisance

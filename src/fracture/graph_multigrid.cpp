@@ -43,7 +43,8 @@ LaplacianRows finestRows(const FractureGraph& graph) {
   rows.diagonal.resize(static_cast<std::size_t>(graph.nodeCount()));
   forNodes(rows.diagonal.size(), [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i)
-      rows.diagonal[i] = std::accumulate(rows.weights.begin() + rows.first[i], rows.weights.begin() + rows.first[i + 1], 0.f);
+      rows.diagonal[i] =
+          std::accumulate(rows.weights.begin() + rows.first[i], rows.weights.begin() + rows.first[i + 1], 0.f);
   });
   return rows;
 }
@@ -126,7 +127,8 @@ struct RowsOfBlock {
 RowsOfBlock coarseBlock(const LaplacianRows& fine, const std::vector<std::uint32_t>& aggregateOf,
                         const Members& members, std::uint32_t begin, std::uint32_t end) {
   RowsOfBlock block;
-  std::vector<std::uint32_t> placeOf(members.first.size() - 1, 0);  // 1 + place of a target in the block, if in this row
+  std::vector<std::uint32_t> placeOf(members.first.size() - 1,
+                                     0);  // 1 + place of a target in the block, if in this row
   for (std::uint32_t a = begin; a < end; ++a) {
     const std::size_t rowBegin = block.targets.size();
     double diagonal = 0;
@@ -226,7 +228,8 @@ std::vector<float> pseudoInverse(const LaplacianRows& rows) {
   inverse.array() -= 1 / (shift * static_cast<double>(n * n));
   std::vector<float> result(static_cast<std::size_t>(n * n));
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) result[static_cast<std::size_t>(i * n + j)] = static_cast<float>(inverse(i, j));
+    for (Eigen::Index j = 0; j < n; ++j)
+      result[static_cast<std::size_t>(i * n + j)] = static_cast<float>(inverse(i, j));
   return result;
 }
 

@@ -19,7 +19,7 @@ struct MultigridLevel {
   LaplacianRows rows;
   std::vector<std::uint32_t> belowEnd, insideEnd;  ///< per row, where its entries below and those inside end
   std::uint32_t blockRows = 1;
-  std::vector<float> mass;  ///< per node, how many nodes of the finest level it stands for
+  std::vector<float> mass;                          ///< per node, how many nodes of the finest level it stands for
   std::vector<std::uint32_t> aggregateOf;           ///< node on the next level; empty on the coarsest
   std::vector<std::uint32_t> memberFirst, members;  ///< nodes of each aggregate
 };

@@ -66,7 +66,8 @@ class MultigridCycle {
     });
   }
 
-  static void addEntries(const LaplacianRows& rows, std::uint32_t begin, std::uint32_t end, const Vectors& x, Row& sum) {
+  static void addEntries(const LaplacianRows& rows, std::uint32_t begin, std::uint32_t end, const Vectors& x,
+                         Row& sum) {
     for (std::uint32_t k = begin; k < end; ++k) {
       const Row& target = x[rows.targets[k]];
       for (int c = 0; c < K; ++c) sum[c] += rows.weights[k] * target[c];
@@ -146,14 +147,15 @@ class MultigridCycle {
     const std::array<double, 3 * K> first = applyTo(rows, s.step, s.b, s.image);
     std::array<float, K> length{};
     for (int c = 0; c < K; ++c) length[c] = first[c] > 0 ? static_cast<float>(first[K + c] / first[c]) : 0;
-    const std::array<double, K> left = sumOverNodes<K>(s.b.size(), [&](std::uint32_t begin, std::uint32_t end, auto& sums) {
-      for (std::uint32_t i = begin; i < end; ++i)
-        for (int c = 0; c < K; ++c) {
-          s.x[i][c] = length[c] * s.step[i][c];
-          s.b[i][c] -= length[c] * s.image[i][c];
-          sums[c] += s.b[i][c] * s.b[i][c];
-        }
-    });
+    const std::array<double, K> left =
+        sumOverNodes<K>(s.b.size(), [&](std::uint32_t begin, std::uint32_t end, auto& sums) {
+          for (std::uint32_t i = begin; i < end; ++i)
+            for (int c = 0; c < K; ++c) {
+              s.x[i][c] = length[c] * s.step[i][c];
+              s.b[i][c] -= length[c] * s.image[i][c];
+              sums[c] += s.b[i][c] * s.b[i][c];
+            }
+        });
     constexpr double enough = 0.25;  // of the norm of the right side (Notay & Vassilevski 2008)
     bool done = true;
     for (int c = 0; c < K; ++c) done = done && left[c] <= enough * enough * first[2 * K + c];

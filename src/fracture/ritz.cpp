@@ -16,8 +16,9 @@ RitzVectors ritzVectors(const GramMatrices& gram, int count) {
   const Eigen::SelfAdjointEigenSolver<Matrix> ofMass(scaledMass);
   const auto kept = (ofMass.eigenvalues().array() > dependent).count();
   CHECK(kept >= count, "{} of {} basis vectors are independent", kept, n);
-  const Matrix orthonormal = scale.asDiagonal() * (ofMass.eigenvectors().rightCols(kept) *
-                                                   ofMass.eigenvalues().tail(kept).array().rsqrt().matrix().asDiagonal());
+  const Matrix orthonormal =
+      scale.asDiagonal() *
+      (ofMass.eigenvectors().rightCols(kept) * ofMass.eigenvalues().tail(kept).array().rsqrt().matrix().asDiagonal());
   const Eigen::SelfAdjointEigenSolver<Matrix> ofEnergy(orthonormal.transpose() * energy * orthonormal);
   const Matrix vectors = orthonormal * ofEnergy.eigenvectors().leftCols(count);
   RitzVectors result;
