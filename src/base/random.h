@@ -17,6 +17,7 @@ enum class Stream : std::uint64_t {
   sootVelocity,
   pixelJitter,
   fractureSeed,
+  solidCells,
   test
 };
 
