@@ -91,7 +91,7 @@ class RingMaker {
   std::uint32_t visibleCorner(std::uint32_t hole, std::uint32_t side, double x) const {
     const Vec2d &p = at(hole), meets{x, p.y};
     const std::uint32_t end = rings_.corners[side].after;
-    std::uint32_t best = at(side).x > at(end).x ? side : end;
+    std::uint32_t best = at(side).x < at(end).x ? side : end;
     const Vec2d corner = at(best);
     double leastSlope = std::numeric_limits<double>::infinity();
     forEachJoined([&](std::uint32_t c) {
