@@ -20,6 +20,7 @@ enum class Stream : std::uint64_t {
   thesisRoot,
   cellSeeds,
   eigenvectorStart,
+  solidCells,
   test
 };
 

@@ -12,12 +12,14 @@ struct Bond {
   int a = 0, b = 0;
   double area = 0;  ///< [m2]
   Vec3d normal;     ///< from a to b
+  Vec3d place{};    ///< [m] centroid of the shared faces of solid pieces, in the body's coordinates
 };
 
 struct Piece {
   TriangleMesh mesh;  ///< about its own centroid; closed where the body was made solid
   MassProperties properties;
-  Vec3d place;  ///< of the centroid in the body's coordinates [m]
+  Vec3d place;          ///< of the centroid in the body's coordinates [m]
+  TriangleMesh hull{};  ///< convex, closed, about the same origin; empty where nobody asked
 };
 
 struct FracturedBody {
