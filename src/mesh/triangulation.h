@@ -15,7 +15,7 @@ struct FlatMesh {
 };
 
 struct Trisection {};  ///< hull, then random interior points each split a triangle in three (thesis 3.3)
-struct Delaunay {};    ///< dual of the Voronoi diagram, exact (thesis 3.3; Boost.Polygon)
+struct Delaunay {};    ///< dual of the Voronoi diagram, exact and unique (thesis 3.3)
 using Triangulation = std::variant<Trisection, Delaunay>;
 
 /// The corners of a width x height rectangle centred on the origin, then `count` points inside it, uniform and seeded.
