@@ -1,4 +1,4 @@
-#include "base/check.h"
+#include "base/random.h"
 #include "mesh/triangle_net.h"
 #include "mesh/triangulation_methods.h"
 
@@ -15,11 +15,10 @@ class Trisector {
         startOf_(net_.triangles().size()),
         random_(seed, Stream::trisection) {}
 
-  /// Puts a point into the first triangle of the start that holds it.
+  /// Puts a point into the first triangle of the start that holds it, if any does.
   void add(std::uint32_t point) {
     for (std::uint32_t t = 0; t < startOf_.size(); ++t)
       if (holds(t, point)) return startOf_[t].push_back(point);
-    CHECK(false, "point {} lies in no triangle of the start", point);
   }
 
   std::vector<Triangle> split() {
@@ -111,40 +110,52 @@ class Trisector {
   std::uint64_t draw_ = 0;
 };
 
-bool strictlyInside(const LatticePoints& points, const std::vector<std::uint32_t>& hull, std::uint32_t point) {
-  for (std::size_t i = 0; i < hull.size(); ++i)
-    if (orientation(points.nodes[hull[i]], points.nodes[hull[(i + 1) % hull.size()]], points.nodes[point]) <= 0)
+/// Whether a point lies to the left of all edges of a polygon: it sees the polygon's whole border.
+bool seesAll(const LatticePoints& points, const std::vector<std::uint32_t>& polygon, std::uint32_t point) {
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    if (orientation(points.nodes[polygon[i]], points.nodes[polygon[(i + 1) % polygon.size()]], points.nodes[point]) <=
+        0)
       return false;
   return true;
 }
 
-/// All edges of the hull seen from `apex`, which may be one of its corners.
-std::vector<Triangle> fan(const std::vector<std::uint32_t>& hull, std::uint32_t apex) {
+/// All edges of a polygon seen from `apex`, which may be one of its corners.
+std::vector<Triangle> fan(const std::vector<std::uint32_t>& polygon, std::uint32_t apex) {
   std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const std::uint32_t a = hull[i], b = hull[(i + 1) % hull.size()];
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const std::uint32_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
     if (a != apex && b != apex) triangles.push_back({apex, a, b});
   }
   return triangles;
 }
 
-/// A random point inside the hull divides it; a corner where no point is inside.
-std::uint32_t chooseApex(const LatticePoints& points, const std::vector<std::uint32_t>& hull, const Random& random) {
+/// The border alone, as if there were no points inside.
+std::vector<Triangle> triangulatedBorder(const LatticePoints& points, const std::vector<std::uint32_t>& border) {
+  LatticePoints alone{points.nodes, {}, border};
+  std::sort(alone.distinct.begin(), alone.distinct.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return points.nodes[a] < points.nodes[b]; });
+  return withinBorder(delaunay(alone), points.nodes, border);
+}
+
+std::vector<Triangle> startOf(const LatticePoints& points, const std::vector<std::uint32_t>& border,
+                              std::uint64_t seed) {
   std::vector<std::uint32_t> inside;
   for (const std::uint32_t point : points.distinct)
-    if (strictlyInside(points, hull, point)) inside.push_back(point);
-  return inside.empty() ? hull[0] : inside[random.below(inside.size(), ~std::uint64_t{0})];
+    if (seesAll(points, border, point)) inside.push_back(point);
+  if (!inside.empty())
+    return fan(border, inside[Random(seed, Stream::trisection).below(inside.size(), ~std::uint64_t{0})]);
+  return border == hullCorners(points) ? fan(border, border[0]) : triangulatedBorder(points, border);
 }
 
 }  // namespace
 
-std::vector<Triangle> trisect(const LatticePoints& points, std::uint64_t seed) {
-  const std::vector<std::uint32_t> hull = hullCorners(points);
-  const std::uint32_t apex = chooseApex(points, hull, Random(seed, Stream::trisection));
+std::vector<Triangle> trisect(const LatticePoints& points, const std::vector<std::uint32_t>& border,
+                              std::uint64_t seed) {
+  std::vector<Triangle> start = startOf(points, border, seed);
   std::vector<bool> isCorner(points.nodes.size(), false);
-  for (const std::uint32_t corner : hull) isCorner[corner] = true;
-  isCorner[apex] = true;
-  Trisector trisector(points, fan(hull, apex), seed);
+  for (const Triangle& t : start)
+    for (const std::uint32_t corner : t) isCorner[corner] = true;
+  Trisector trisector(points, std::move(start), seed);
   for (const std::uint32_t point : points.distinct)
     if (!isCorner[point]) trisector.add(point);
   return trisector.split();
