@@ -94,13 +94,6 @@ TriangleMesh flatSurface(const FlatMesh& flat) {
   return mesh;
 }
 
-/// As many border points as keep the distance that the points inside have on average.
-int borderPoints(const PaneSettings& pane) {
-  if (pane.points < 1) return 0;
-  const double spacing = std::sqrt(pane.width * pane.height / pane.points);
-  return static_cast<int>(std::lround(2 * (pane.width + pane.height) / spacing));
-}
-
 /// Some triangles of a mesh, with the vertices they use in their old order.
 TriangleMesh subset(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
   std::vector<std::uint32_t> used;
@@ -145,8 +138,8 @@ Piece wholePiece(TriangleMesh mesh, double shellThickness) {
 }  // namespace
 
 FracturedBody fracturePane(const PaneSettings& pane, const FractureSettings& fracture, std::uint64_t seed) {
-  const std::vector<Vec2d> points = panePoints(pane.width, pane.height, pane.points, borderPoints(pane), seed);
-  const FlatMesh flat = triangulate(points, pane.triangulation, seed);
+  const PanePoints points = placePoints(pane.outline, pane.pattern, pane.points, seed);
+  const FlatMesh flat = triangulatePane(points, pane.triangulation, seed);
   const Partition cut = partition(triangleGraph(flat.triangles, flat.points.size()), fracture);
   FracturedBody body;
   for (const auto& triangles : trianglesByPiece(cut)) {

@@ -65,7 +65,9 @@ std::vector<Vec2d> pointsInside(const PaneArea& pane, const ImpactPoints& patter
   double step = std::max(steps, 1e-3) / std::max(1, pane.count);
   std::vector<Vec2d> points = web(pane, pattern, spokes, step, random);
   while (points.size() < wanted) points = web(pane, pattern, spokes, step *= finer, random);
-  points.resize(wanted);  // those too many are the outermost
+  // Those too many are the innermost but the impact itself: least is missed there.
+  const auto tooMany = static_cast<std::ptrdiff_t>(points.size() - wanted);
+  points.erase(points.begin() + (wanted > 0 ? 1 : 0), points.begin() + (wanted > 0 ? 1 : 0) + tooMany);
   return points;
 }
 

@@ -17,9 +17,9 @@ struct BlueNoisePoints {
 /// As glass breaks under a blow: radial cracks leave the impact, and arcs between them lie ever farther apart.
 struct ImpactPoints {
   Vec2d impact;               ///< [m] inside the outline
-  int spokes = 16;            ///< radial cracks
-  double finest = 0.01;       ///< [m] distance of the innermost arc from the impact
-  double irregularity = 0.5;  ///< 0: a spider's web, 1: cracks wander by half of their distance
+  int spokes = 24;            ///< radial cracks
+  double finest = 0.02;       ///< [m] distance of the innermost arc from the impact
+  double irregularity = 0.4;  ///< 0: a spider's web, 1: cracks wander by half of their distance
   friend bool operator==(const ImpactPoints&, const ImpactPoints&) = default;
 };
 using PointPattern = std::variant<UniformPoints, BlueNoisePoints, ImpactPoints>;
