@@ -63,13 +63,16 @@ LatticePoints snapToLattice(const std::vector<Vec2d>& points) {
   // The origin is a multiple of the step, so that every place below is exact.
   const Vec2d origin{std::round(box.lower.x / step) * step, std::round(box.lower.y / step) * step};
   LatticePoints result;
-  result.nodes.reserve(points.size());
-  result.points.reserve(points.size());
-  for (const Vec2d& p : points) {
-    const LatticePoint node{nodeOf(p.x, origin.x, step), nodeOf(p.y, origin.y, step)};
-    result.nodes.push_back(node);
-    result.points.push_back({origin.x + node.x * step, origin.y + node.y * step});
-  }
+  result.nodes.resize(points.size());
+  result.points.resize(points.size());
+  constexpr std::int64_t block = 1 << 14;
+  parallelFor(0, static_cast<std::int64_t>(points.size()), block, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      const LatticePoint node{nodeOf(points[i].x, origin.x, step), nodeOf(points[i].y, origin.y, step)};
+      result.nodes[i] = node;
+      result.points[i] = {origin.x + node.x * step, origin.y + node.y * step};
+    }
+  });
   result.distinct = distinctNodes(result.nodes);
   return result;
 }
