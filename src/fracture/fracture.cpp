@@ -80,13 +80,6 @@ TriangleMesh flatSurface(const FlatMesh& flat) {
   return mesh;
 }
 
-/// As many border points as keep the distance that the points inside have on average.
-int borderPoints(const PaneSettings& pane) {
-  if (pane.points < 1) return 0;
-  const double spacing = std::sqrt(pane.width * pane.height / pane.points);
-  return static_cast<int>(std::lround(2 * (pane.width + pane.height) / spacing));
-}
-
 /// Some triangles of a mesh, with the vertices they use in their old order.
 TriangleMesh subset(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
   std::vector<std::uint32_t> used;
@@ -150,8 +143,8 @@ CutLine cutLine(const TriangleMesh& mesh, const std::vector<int>& pieceOfTriangl
 }
 
 FracturedBody fracturePane(const PaneSettings& pane, const FractureSettings& fracture, std::uint64_t seed) {
-  const std::vector<Vec2d> points = panePoints(pane.width, pane.height, pane.points, borderPoints(pane), seed);
-  const FlatMesh flat = triangulate(points, pane.triangulation, seed);
+  const PanePoints points = placePoints(pane.outline, pane.pattern, pane.points, seed);
+  const FlatMesh flat = triangulatePane(points, pane.triangulation, seed);
   const TriangleMesh sheet = flatSurface(flat);
   const Cut cut = partitionSurface(sheet, fracture);
   FracturedBody body;

@@ -31,13 +31,16 @@ struct FracturedBody {
   double graphSeconds = 0, partitionSeconds = 0;  ///< spent on the graph, and on choosing pieces
 };
 
-/// A flat pane of glass (thesis 3.3): points, triangles, pieces, each extruded. In the x-y plane, centred on the
-/// origin.
+/// A flat pane of glass (thesis 3.3): points, triangles, pieces, each extruded. In the x-y plane. A texture is
+/// stretched over the box around the outline, and shows on both faces.
 struct PaneSettings {
-  double width = 1, height = 1, thickness = 0.005;  ///< [m]
-  int points = 200;                                 ///< inside the rectangle
+  Outline outline = RectangleOutline{};
+  double thickness = 0.005;  ///< [m]
+  PointPattern pattern = UniformPoints{};
+  int points = 200;  ///< inside the outline
   Triangulation triangulation = Trisection{};
 };
+/// Throws InputError for an outline or a pattern with a fault.
 FracturedBody fracturePane(const PaneSettings& pane, const FractureSettings& fracture, std::uint64_t seed);
 
 /// Where a mesh that is cut along its own triangles comes apart.

@@ -77,8 +77,25 @@ void splitFans(LocalTriangles& local, const std::vector<Triangle>& neighbours) {
   local.origin = std::move(origin);
 }
 
-void addVertices(TriangleMesh& solid, const FlatMesh& flat, const LocalTriangles& local, double z) {
-  for (const std::uint32_t v : local.origin) solid.vertices.push_back({flat.points[v].x, flat.points[v].y, z});
+/// Stretches a picture over a box: (0, 0) at its lower left corner.
+struct PictureBox {
+  Vec3d lower, size;
+  Vec2d uv(const Vec2d& p) const { return {(p.x - lower.x) / size.x, (p.y - lower.y) / size.y}; }
+};
+
+PictureBox pictureBox(const FlatMesh& flat) {
+  Box3 box;
+  for (const Triangle& t : flat.triangles)
+    for (const std::uint32_t v : t) box.include({flat.points[v].x, flat.points[v].y, 0});
+  return {box.lower, box.size()};
+}
+
+void addVertices(TriangleMesh& solid, const FlatMesh& flat, const LocalTriangles& local, const PictureBox& picture,
+                 double z) {
+  for (const std::uint32_t v : local.origin) {
+    solid.vertices.push_back({flat.points[v].x, flat.points[v].y, z});
+    solid.uvs.push_back(picture.uv(flat.points[v]));
+  }
 }
 
 }  // namespace
@@ -88,8 +105,9 @@ TriangleMesh extrude(const FlatMesh& flat, const std::vector<std::uint32_t>& tri
   const std::vector<Triangle> neighbours = edgeNeighbours(local.triangles, local.origin.size());
   splitFans(local, neighbours);
   TriangleMesh solid;
-  addVertices(solid, flat, local, thickness / 2);
-  addVertices(solid, flat, local, -thickness / 2);
+  const PictureBox picture = pictureBox(flat);
+  addVertices(solid, flat, local, picture, thickness / 2);
+  addVertices(solid, flat, local, picture, -thickness / 2);
   const auto below = static_cast<std::uint32_t>(local.origin.size());
   for (const auto& [a, b, c] : local.triangles) {
     solid.triangles.push_back({a, b, c});
