@@ -71,8 +71,11 @@ void makeUpNormals(TriangleMesh& mesh, const std::vector<bool>& given) {
     for (const std::uint32_t v : {a, b, c})
       if (!given[v]) mesh.normals[v] += doubleArea;
   }
-  for (std::size_t v = 0; v < given.size(); ++v)
-    if (!given[v]) mesh.normals[v] = normalized(mesh.normals[v]);
+  for (std::size_t v = 0; v < given.size(); ++v) {
+    if (given[v]) continue;
+    const bool hasLength = std::isfinite(length(mesh.normals[v]));  // areas of huge triangles overflow
+    mesh.normals[v] = hasLength ? normalized(mesh.normals[v]) : Vec3d{};
+  }
 }
 
 }  // namespace brisance

@@ -25,7 +25,7 @@ struct CornerMesh {
 /// positions. Every corner has a position in range.
 TriangleMesh withSharedVertices(CornerMesh content);
 
-/// Gives each vertex without a normal the mean over its triangles, by area.
+/// Gives each vertex without a normal the mean over its triangles, by area; none where they have no area.
 void makeUpNormals(TriangleMesh& mesh, const std::vector<bool>& given);
 
 }  // namespace brisance

@@ -265,9 +265,8 @@ class GltfReader {
 
   std::string nameOf(std::size_t material) const {
     const Json& entry = document_.entry("materials", material);
-    std::string name = entry.contains("name") && entry["name"].is_string() ? entry["name"].get<std::string>() : "";
-    for (char& c : name)
-      if (static_cast<unsigned char>(c) < ' ') c = '?';
+    const std::string name =
+        entry.contains("name") && entry["name"].is_string() ? printable(entry["name"].get<std::string>()) : "";
     return trimmed(name).empty() ? fmt::format("material {}", material) : std::string(trimmed(name));
   }
 

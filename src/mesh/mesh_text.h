@@ -47,6 +47,14 @@ inline std::string shown(std::string_view word) {
   return text;
 }
 
+/// A name without control characters, which could end a line that it is written in.
+inline std::string printable(std::string_view name) {
+  std::string text(name);
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7F') c = '?';
+  return text;
+}
+
 /// The whole word as a number; a leading plus sign is allowed.
 template <class Number>
 bool parseNumber(std::string_view word, Number& value) {

@@ -1,20 +1,11 @@
 #include "mesh/mesh_topology.h"
 
-#include <numeric>
-#include <span>
-#include <tuple>
-
 #include "base/check.h"
+#include "mesh/edge_uses.h"
+#include "mesh/number_table.h"
 
 namespace brisance {
 namespace {
-
-/// One triangle's use of an edge: slot = 3 triangle + edge.
-struct EdgeUse {
-  std::uint32_t high = 0;  ///< the greater of the edge's vertices
-  std::uint32_t slot = 0;
-  bool rising = false;  ///< goes from the lesser vertex to the greater
-};
 
 EdgeUse edgeUse(const std::vector<Triangle>& triangles, std::uint32_t slot) {
   const Triangle& t = triangles[slot / 3];
@@ -27,11 +18,7 @@ std::uint32_t lowVertex(const std::vector<Triangle>& triangles, std::uint32_t sl
   return std::min(t[slot % 3], t[(slot + 1) % 3]);
 }
 
-/// All uses of edges, in rows by the lesser vertex: a counting sort, so linear in the number of triangles.
-struct EdgeRows {
-  std::vector<std::size_t> first;
-  std::vector<EdgeUse> uses;
-};
+}  // namespace
 
 EdgeRows edgeRows(const std::vector<Triangle>& triangles, std::size_t vertexCount) {
   const auto slots = static_cast<std::uint32_t>(3 * triangles.size());
@@ -47,25 +34,6 @@ EdgeRows edgeRows(const std::vector<Triangle>& triangles, std::size_t vertexCoun
     rows.uses[next[lowVertex(triangles, slot)]++] = edgeUse(triangles, slot);
   return rows;
 }
-
-/// Calls visit(low vertex, uses of one edge in order of slots) for every edge.
-template <class Visit>
-void forEachEdge(const std::vector<Triangle>& triangles, std::size_t vertexCount, const Visit& visit) {
-  EdgeRows rows = edgeRows(triangles, vertexCount);
-  for (std::size_t v = 0; v < vertexCount; ++v) {
-    const auto begin = rows.uses.begin() + static_cast<std::ptrdiff_t>(rows.first[v]);
-    const auto end = rows.uses.begin() + static_cast<std::ptrdiff_t>(rows.first[v + 1]);
-    std::sort(begin, end,
-              [](const EdgeUse& a, const EdgeUse& b) { return a.high != b.high ? a.high < b.high : a.slot < b.slot; });
-    for (auto group = begin; group != end;) {
-      const auto next = std::find_if(group, end, [&](const EdgeUse& use) { return use.high != group->high; });
-      visit(static_cast<std::uint32_t>(v), std::span<const EdgeUse>(group, next));
-      group = next;
-    }
-  }
-}
-
-}  // namespace
 
 std::vector<Triangle> edgeNeighbours(const std::vector<Triangle>& triangles, std::size_t vertexCount) {
   std::vector<Triangle> neighbours(triangles.size(), Triangle{noTriangle, noTriangle, noTriangle});
@@ -92,17 +60,17 @@ bool isClosed(const TriangleMesh& mesh) {
   return closed;
 }
 
+std::vector<std::uint32_t> samePlaces(const std::vector<Vec3d>& places) {
+  NumberTable table(places.size());
+  std::vector<std::uint32_t> first(places.size());
+  for (std::uint32_t v = 0; v < first.size(); ++v)
+    first[v] = table.findOrAdd(hashOf(places[v]), v, [&](std::uint32_t other) { return places[other] == places[v]; });
+  return first;
+}
+
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result{mesh.vertices, mesh.triangles, {}, {}, {}, {}};
-  std::vector<std::uint32_t> order(mesh.vertices.size()), first(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t v) {
-    return std::tie(mesh.vertices[v].x, mesh.vertices[v].y, mesh.vertices[v].z);
-  };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? first[order[i - 1]] : order[i];
+  const std::vector<std::uint32_t> first = samePlaces(mesh.vertices);
   for (Triangle& t : result.triangles)
     for (std::uint32_t& v : t) v = first[v];
   return result;

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "mesh/mesh_formats.h"
+#include "mesh/mesh_text.h"
 
 namespace brisance {
 
@@ -28,7 +29,7 @@ void appendCorner(fmt::memory_buffer& text, const TriangleMesh& mesh, std::uint3
 void appendFaces(fmt::memory_buffer& text, const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!mesh.materials.empty() && (t == 0 || mesh.materials[t] != mesh.materials[t - 1]))
-      fmt::format_to(fmt::appender(text), "usemtl {}\n", mesh.materialNames.at(mesh.materials[t]));
+      fmt::format_to(fmt::appender(text), "usemtl {}\n", printable(mesh.materialNames.at(mesh.materials[t])));
     text.push_back('f');
     for (const std::uint32_t v : mesh.triangles[t]) appendCorner(text, mesh, v);
     text.push_back('\n');
@@ -37,7 +38,7 @@ void appendFaces(fmt::memory_buffer& text, const TriangleMesh& mesh) {
 
 std::string plyHeader(const TriangleMesh& mesh) {
   std::string header = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& name : mesh.materialNames) header += fmt::format("comment material {}\n", name);
+  for (const std::string& name : mesh.materialNames) header += fmt::format("comment material {}\n", printable(name));
   const auto addProperties = [&](std::initializer_list<const char*> names) {
     for (const char* name : names) header += fmt::format("property double {}\n", name);
   };

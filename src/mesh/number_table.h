@@ -42,8 +42,19 @@ class NumberTable {
     return fresh;
   }
 
- private:
   static constexpr std::uint32_t vacant = 0xFFFFFFFFu;
+
+  /// The number of an equal thing entered before; `vacant` where there is none.
+  template <class Equal>
+  std::uint32_t find(std::uint64_t hash, const Equal& equal) const {
+    const auto tag = static_cast<std::uint32_t>(hash >> 32);
+    for (std::size_t slot = hash & (entries_.size() - 1); entries_[slot].number != vacant;
+         slot = (slot + 1) & (entries_.size() - 1))
+      if (entries_[slot].tag == tag && equal(entries_[slot].number)) return entries_[slot].number;
+    return vacant;
+  }
+
+ private:
   struct Entry {
     std::uint32_t number = vacant, tag = 0;
     std::uint64_t hash = 0;

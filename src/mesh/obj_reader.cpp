@@ -68,7 +68,7 @@ class ObjReader {
       const Vec3d uv = parseReals(line, 1, place_);
       content_.uvs.push_back({uv.x, uv.y});
     }
-    if (keyword == "usemtl") useMaterial(std::string(trimmed(line)));
+    if (keyword == "usemtl") useMaterial(printable(trimmed(line)));
   }
 
   void readFace(std::string_view line) {

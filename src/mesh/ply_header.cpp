@@ -93,7 +93,9 @@ class HeaderReader {
   }
 
   void readComment(std::string_view line) {
-    if (nextWord(line) == "material") header_.materialNames.emplace_back(trimmed(line));
+    if (nextWord(line) != "material") return;
+    const std::string name = printable(trimmed(line));
+    header_.materialNames.push_back(name.empty() ? fmt::format("material {}", header_.materialNames.size()) : name);
   }
 
   std::string_view rest_;
