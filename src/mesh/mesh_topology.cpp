@@ -2,41 +2,23 @@
 
 #include <atomic>
 #include <numeric>
-#include <span>
-#include <tuple>
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "mesh/edge_uses.h"
+#include "mesh/number_table.h"
 
 namespace brisance {
 namespace {
 
-/// One triangle's use of an edge: slot = 3 triangle + edge.
-struct EdgeUse {
-  std::uint32_t high = 0;  ///< the greater of the edge's vertices
-  std::uint32_t slot = 0;
-  bool rising = false;  ///< goes from the lesser vertex to the greater
-};
-
-EdgeUse edgeUse(const std::vector<Triangle>& triangles, std::uint32_t slot) {
-  const Triangle& t = triangles[slot / 3];
-  const std::uint32_t a = t[slot % 3], b = t[(slot + 1) % 3];
-  return {std::max(a, b), slot, a < b};
-}
+constexpr std::int64_t slotsPerTask = 65536, verticesPerTask = 16384;
 
 std::uint32_t lowVertex(const std::vector<Triangle>& triangles, std::uint32_t slot) {
   const Triangle& t = triangles[slot / 3];
   return std::min(t[slot % 3], t[(slot + 1) % 3]);
 }
 
-/// All uses of edges by their slots, in rows by the lesser vertex: a counting sort, so linear in the number of
-/// triangles. Threads fill rows in any order: what reads a row sorts it first.
-struct EdgeRows {
-  std::vector<std::uint32_t> first;
-  std::vector<std::uint32_t> slots;
-};
-
-constexpr std::int64_t slotsPerTask = 65536, verticesPerTask = 16384;
+}  // namespace
 
 EdgeRows edgeRows(const std::vector<Triangle>& triangles, std::size_t vertexCount) {
   const auto slots = static_cast<std::uint32_t>(3 * triangles.size());
@@ -59,33 +41,6 @@ EdgeRows edgeRows(const std::vector<Triangle>& triangles, std::size_t vertexCoun
   });
   return rows;
 }
-
-/// Calls visit(low vertex, uses of one edge in order of slots) for every edge whose lesser vertex is in [from, to).
-template <class Visit>
-void forEdgesOf(const EdgeRows& rows, const std::vector<Triangle>& triangles, std::size_t from, std::size_t to,
-                const Visit& visit) {
-  std::vector<EdgeUse> uses;
-  const auto earlier = [](const EdgeUse& a, const EdgeUse& b) {
-    return a.high != b.high ? a.high < b.high : a.slot < b.slot;
-  };
-  for (std::size_t v = from; v < to; ++v) {
-    uses.clear();
-    for (std::uint32_t i = rows.first[v]; i < rows.first[v + 1]; ++i) uses.push_back(edgeUse(triangles, rows.slots[i]));
-    std::sort(uses.begin(), uses.end(), earlier);
-    for (auto group = uses.begin(); group != uses.end();) {
-      const auto next = std::find_if(group, uses.end(), [&](const EdgeUse& use) { return use.high != group->high; });
-      visit(static_cast<std::uint32_t>(v), std::span<const EdgeUse>(group, next));
-      group = next;
-    }
-  }
-}
-
-template <class Visit>
-void forEachEdge(const std::vector<Triangle>& triangles, std::size_t vertexCount, const Visit& visit) {
-  forEdgesOf(edgeRows(triangles, vertexCount), triangles, 0, vertexCount, visit);
-}
-
-}  // namespace
 
 std::vector<Triangle> edgeNeighbours(const std::vector<Triangle>& triangles, std::size_t vertexCount) {
   std::vector<Triangle> neighbours(triangles.size(), Triangle{noTriangle, noTriangle, noTriangle});
@@ -115,17 +70,17 @@ bool isClosed(const TriangleMesh& mesh) {
   return closed;
 }
 
+std::vector<std::uint32_t> samePlaces(const std::vector<Vec3d>& places) {
+  NumberTable table(places.size());
+  std::vector<std::uint32_t> first(places.size());
+  for (std::uint32_t v = 0; v < first.size(); ++v)
+    first[v] = table.findOrAdd(hashOf(places[v]), v, [&](std::uint32_t other) { return places[other] == places[v]; });
+  return first;
+}
+
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result{mesh.vertices, mesh.triangles, {}, {}, {}, {}};
-  std::vector<std::uint32_t> order(mesh.vertices.size()), first(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t v) {
-    return std::tie(mesh.vertices[v].x, mesh.vertices[v].y, mesh.vertices[v].z);
-  };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? first[order[i - 1]] : order[i];
+  const std::vector<std::uint32_t> first = samePlaces(mesh.vertices);
   for (Triangle& t : result.triangles)
     for (std::uint32_t& v : t) v = first[v];
   return result;
