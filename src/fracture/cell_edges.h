@@ -20,10 +20,10 @@ struct EdgeCrossing {
 /// How often the surface winds about a point is 1 inside a body and 0 outside; for a surface that crosses itself also
 /// other numbers.
 struct CellEdges {
-  std::vector<CellEdge> edges;                          ///< rising by cells
-  std::vector<std::array<std::uint32_t, 4>> edgeOf;     ///< per tetrahedron and face; noEdge where a ghost is involved
+  std::vector<CellEdge> edges;                       ///< rising by cells
+  std::vector<std::array<std::uint32_t, 4>> edgeOf;  ///< per tetrahedron and face; noEdge where a ghost is involved
   std::vector<EdgeCrossing> crossings;
-  std::vector<int> winding;                             ///< at the tetrahedra's meeting points
+  std::vector<int> winding;  ///< at the tetrahedra's meeting points
   static constexpr std::uint32_t noEdge = 0xFFFFFFFFu;
 };
 

@@ -18,8 +18,7 @@ struct Bond {
 struct Piece {
   TriangleMesh mesh;  ///< about its own centroid; closed where the body was made solid
   MassProperties properties;
-  Vec3d place;          ///< of the centroid in the body's coordinates [m]
-  TriangleMesh hull{};  ///< convex, closed, about the same origin; empty where nobody asked
+  Vec3d place;  ///< of the centroid in the body's coordinates [m]
 };
 
 struct FracturedBody {
@@ -50,7 +49,8 @@ struct CutLine {
 };
 CutLine cutLine(const TriangleMesh& mesh, const std::vector<int>& pieceOfTriangle);
 
-/// A mesh cut along its own triangles: pieces of a closed mesh are open shells (thesis 4.2), whole if pieces = 1.
+/// A mesh cut along its own triangles: pieces of a closed mesh are open shells (thesis 4.2), whole if pieces = 1. With
+/// settings.solid the pieces are solids (solid_fracture.h); the mesh must be closed then. Throws InputError.
 FracturedBody fractureMesh(const TriangleMesh& mesh, const FractureSettings& fracture, double shellThickness);
 
 }  // namespace brisance

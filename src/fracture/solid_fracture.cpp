@@ -6,7 +6,6 @@
 #include "fracture/piece_meshes.h"
 #include "fracture/solid_parts.h"
 #include "fracture/solid_seeds.h"
-#include "mesh/convex_hull.h"
 
 namespace brisance {
 namespace {
@@ -64,17 +63,16 @@ class SolidBreaker {
   /// One cell per piece; where some are empty, more cells.
   Cut cellEach() {
     for (int extra = 0;; extra += 1 + extra) {
-      auto result = cut(seeds(settings_.pieces + extra), {},
-                        [&](const Cut& c) { return cellPieces(c.atoms, settings_.pieces); });
+      auto result =
+          cut(seeds(settings_.pieces + extra), {}, [&](const Cut& c) { return cellPieces(c.atoms, settings_.pieces); });
       if (result) return std::move(*result);
       CHECK(extra < 100 * settings_.pieces, "{} cells yield fewer than {} pieces", extra, settings_.pieces);
     }
   }
 
   Cut fused() {
-    auto result = cut(seeds(settings_.pieces * cellsPerPiece()), {}, [&](const Cut& c) {
-      return how_.partition(atomGraph(c.complex, c.atoms, how_.vertexStrength));
-    });
+    auto result = cut(seeds(settings_.pieces * cellsPerPiece()), {},
+                      [&](const Cut& c) { return how_.partition(atomGraph(c.complex, c.atoms, how_.vertexStrength)); });
     CHECK(result, "the partition has fewer than {} pieces", settings_.pieces);
     return std::move(*result);
   }
@@ -96,12 +94,11 @@ class SolidBreaker {
 };
 
 /// About its own centroid, but for rounding that keeps sums with `place` exact.
-Piece settled(TriangleMesh mesh, double step, bool hull) {
+Piece settled(TriangleMesh mesh, double step) {
   const MassProperties properties = solidProperties(mesh);
-  Piece piece{std::move(mesh), properties, onSteps(properties.centroid, step), {}};
+  Piece piece{std::move(mesh), properties, onSteps(properties.centroid, step)};
   recenter(piece.mesh, piece.place);
   piece.properties.centroid = {};
-  if (hull) piece.hull = convexHull(piece.mesh.vertices);
   return piece;
 }
 
@@ -131,16 +128,16 @@ FracturedBody fractureSolid(const TriangleMesh& input, const FractureSettings& s
   const TriangleMesh mesh = facingOutwards(input);
   const SolidSurface surface = solidSurface(mesh);
   FracturedBody body;
+  body.solid = true;
   if (settings.pieces == 1) {
-    body.pieces.push_back(settled(mesh, surface.step, how.hulls));
+    body.pieces.push_back(settled(mesh, surface.step));
     return body;
   }
   const Cut cut = SolidBreaker(surface, settings, how).run();
   std::vector<TriangleMesh> meshes = pieceMeshes(mesh, cut.complex, cut.atoms, cut.pieces);
   body.pieces.resize(meshes.size());
   parallelFor(0, static_cast<std::int64_t>(meshes.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t p = begin; p < end; ++p)
-      body.pieces[p] = settled(std::move(meshes[p]), surface.step, how.hulls);
+    for (std::int64_t p = begin; p < end; ++p) body.pieces[p] = settled(std::move(meshes[p]), surface.step);
   });
   body.bonds = bondsOf(pieceContacts(cut.atoms, cut.pieces), body.pieces);
   return body;

@@ -12,10 +12,9 @@ namespace brisance {
 using CellPartitioner = std::function<Partition(const FractureGraph&)>;
 
 struct SolidFracture {
-  const CellPartitioner& partition;     ///< not asked where each piece is one cell
+  const CellPartitioner& partition;    ///< not asked where each piece is one cell
   std::vector<double> vertexStrength;  ///< per vertex of the mesh, above 0: faces are as strong as the surface near
                                        ///< them; empty: as large as they are
-  bool hulls = false;                  ///< build Piece::hull too
 };
 
 /// Closed, oriented pieces, each in one part, whose volumes add up to the mesh's: cells of seeded points (Voronoi),

@@ -8,13 +8,13 @@
 namespace brisance {
 namespace {
 
-/// The parts of lines along z that lie inside a body: one line at a random place in each square of a lattice in x and y.
+/// The parts of lines along z that lie inside a body: one line at a random place in each square of a lattice in x and
+/// y.
 class InsideLines {
  public:
   InsideLines(const SolidSurface& surface, int side, const Random& random) : side_(side), surface_(surface) {
     for (const Vec3d& p : surface.places) box_.include(p);
-    for (int n = 0; n < side * side; ++n)
-      lines_.push_back({{random.uniform(2 * n), random.uniform(2 * n + 1)}, {}});
+    for (int n = 0; n < side * side; ++n) lines_.push_back({{random.uniform(2 * n), random.uniform(2 * n + 1)}, {}});
     for (const Triangle& t : surface.triangles) cross(t);
     collect();
   }
@@ -22,21 +22,22 @@ class InsideLines {
   double length() const { return ends_.empty() ? 0 : ends_.back(); }
   /// The point at a given length along all stretches, one after the other.
   Vec3d at(double along) const {
-    const auto stretch = static_cast<std::size_t>(
-        std::min(std::upper_bound(ends_.begin(), ends_.end(), along) - ends_.begin(),
-                 static_cast<std::ptrdiff_t>(ends_.size()) - 1));
+    const auto stretch =
+        static_cast<std::size_t>(std::min(std::upper_bound(ends_.begin(), ends_.end(), along) - ends_.begin(),
+                                          static_cast<std::ptrdiff_t>(ends_.size()) - 1));
     const auto& [place, top] = stretches_[stretch];
     return {place.x, place.y, top - (ends_[stretch] - along)};
   }
 
  private:
   struct Line {
-    Vec2d offset;  ///< in its square, 0 to 1
+    Vec2d offset;                                   ///< in its square, 0 to 1
     std::vector<std::pair<double, int>> crossings;  ///< z, and +1 where it enters
   };
   Vec2d place(int i, int j) const {
     const Vec2d& offset = lines_[j * side_ + i].offset;
-    return {box_.lower.x + box_.size().x * (i + offset.x) / side_, box_.lower.y + box_.size().y * (j + offset.y) / side_};
+    return {box_.lower.x + box_.size().x * (i + offset.x) / side_,
+            box_.lower.y + box_.size().y * (j + offset.y) / side_};
   }
   int square(double x, int axis) const {
     const double share = (x - box_.lower[axis]) / box_.size()[axis];
@@ -52,7 +53,9 @@ class InsideLines {
   }
   void crossAt(const Vec3d& a, const Vec3d& b, const Vec3d& c, int i, int j) {
     const Vec2d p = place(i, j);
-    const auto turn = [&](const Vec3d& u, const Vec3d& v) { return (u.x - p.x) * (v.y - p.y) - (u.y - p.y) * (v.x - p.x); };
+    const auto turn = [&](const Vec3d& u, const Vec3d& v) {
+      return (u.x - p.x) * (v.y - p.y) - (u.y - p.y) * (v.x - p.x);
+    };
     const double wa = turn(b, c), wb = turn(c, a), wc = turn(a, b), sum = wa + wb + wc;
     const bool inside = (wa >= 0 && wb >= 0 && wc >= 0) || (wa <= 0 && wb <= 0 && wc <= 0);
     if (!inside || sum == 0) return;
@@ -78,7 +81,7 @@ class InsideLines {
   const SolidSurface& surface_;
   Box3 box_;
   std::vector<Line> lines_;
-  std::vector<double> ends_;                          ///< running sum of lengths
+  std::vector<double> ends_;                         ///< running sum of lengths
   std::vector<std::pair<Vec2d, double>> stretches_;  ///< place and upper end
 };
 
