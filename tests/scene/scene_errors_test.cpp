@@ -225,6 +225,20 @@ TEST(SceneErrors, SceneryAndWhatMovesAreToldApart) {
              "s.toml:4: bodies.a.fracture.pieces: must be at most the 12 triangles of the shape, got 13");
 }
 
+TEST(SceneErrors, WhatAMethodCannotBreakIsRefused) {
+  const std::string box = "[[bodies]]\nname = 'a'\nshape = 'box'\n";
+  expectLine(box + "fracture = { method = 'breadth_first_thesis', pieces = 6 }\n",
+             "s.toml:4: bodies.a.fracture.pieces: must be a power of two for breadth_first_thesis, got 6");
+  expectLine(
+      box + "fracture = { method = 'breadth_first_thesis', pieces = 8, solid = true }\n",
+      "s.toml:4: bodies.a.fracture.method: must be another for solid pieces: breadth_first_thesis cuts triangles");
+  expectLine(box + "fracture = { method = { type = 'curvature', split = 'list' }, pieces = 2 }\n",
+             "s.toml:4: bodies.a.fracture.method.split: unknown key");
+  expectLine("[[bodies]]\nname = 'a'\nshape = { type = 'mesh', file = 'house.gltf' }\n",
+             "s.toml:3: bodies.a.shape.file: must be .glb, .obj, .ply or .stl: a .gltf keeps its vertices in other "
+             "files, which a run would not hold");
+}
+
 TEST(SceneErrors, PicturesNumbersAgree) {
   expectLine("[render.volume]\nmin_density = 0.5\nmax_density = 0.5\n",
              "s.toml:2: render.volume.min_density: must be below max_density, 0.5, got 0.5");
