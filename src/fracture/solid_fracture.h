@@ -8,8 +8,8 @@
 
 namespace brisance {
 
-/// Who divides a graph of small cells into settings.pieces parts.
-using CellPartitioner = std::function<Partition(const FractureGraph&)>;
+/// Divides a graph of small cells into so many connected parts.
+using CellPartitioner = std::function<Partition(const FractureGraph&, int pieces)>;
 
 struct SolidFracture {
   const CellPartitioner& partition;     ///< not asked where each piece is one cell
