@@ -236,6 +236,33 @@ TriangleMesh dumbbell(long triangles) {
   return surfaceNetOf(body, {{-2.5, -1.35, -1.35}, {2.3, 1.35, 1.35}}, triangles);
 }
 
+TriangleMesh figurine(long triangles) {
+  struct Limb {
+    Vec3d from, to;
+    double radius;
+  };
+  static const Limb limbs[] = {
+      {{0, 0.85, 0}, {0, 1.25, 0}, 0.36},                                                        // trunk
+      {{0.2, 0.2, 0}, {0.17, 0.75, 0}, 0.17},     {{-0.2, 0.2, 0}, {-0.17, 0.75, 0}, 0.17},      // legs
+      {{0.2, 0.13, 0}, {0.22, 0.12, 0.16}, 0.13}, {{-0.2, 0.13, 0}, {-0.22, 0.12, 0.16}, 0.13},  // feet
+      {{0.3, 1.4, 0}, {0.78, 1.15, 0.12}, 0.12},  {{-0.3, 1.4, 0}, {-0.72, 1.7, 0.1}, 0.12},     // arms
+      {{0, 1.5, 0}, {0, 1.6, 0}, 0.15},                                                          // neck
+      {{0, 1.93, 0.02}, {0, 1.97, 0.02}, 0.31},                                                  // head
+      {{0.22, 2.17, 0}, {0.24, 2.2, 0}, 0.1},     {{-0.22, 2.17, 0}, {-0.24, 2.2, 0}, 0.1},      // ears
+      {{0, 1.88, 0.3}, {0, 1.9, 0.33}, 0.09}};                                                   // nose
+  const Implicit body = [](const Vec3d& p) {
+    double distance = 1e9;
+    for (const Limb& limb : limbs) {
+      const Vec3d axis = limb.to - limb.from;
+      const double share = std::clamp(dot(p - limb.from, axis) / dot(axis, axis), 0.0, 1.0);
+      constexpr double rounding = 0.09;
+      distance = smoothUnion(distance, length(p - limb.from - axis * share) - limb.radius, rounding);
+    }
+    return distance;
+  };
+  return surfaceNetOf(body, {{-1.0, -0.15, -0.55}, {1.0, 2.45, 0.55}}, triangles);
+}
+
 TriangleMesh torus(long triangles) {
   // 2 n m triangles with cells about square: m around the tube, n along the ring.
   constexpr double ring = 1, tube = 0.4;

@@ -20,6 +20,8 @@ TriangleMesh surfaceNetOf(const Implicit& body, const Box3& box, long triangles)
 TriangleMesh bumpySphere(long triangles);
 /// Two bumpy balls of radius 1 and 0.8, joined by a neck of radius 0.18 along x.
 TriangleMesh dumbbell(long triangles);
+/// A standing figure with head, arms and legs, about 2.3 high, on y = 0 (a toy of clay, for pictures).
+TriangleMesh figurine(long triangles);
 /// Radii 1 and 0.4, about the z axis.
 TriangleMesh torus(long triangles);
 /// A sheet of n x 2n cells in x and y that is bent along x = 0 by `degrees`, over a width of a tenth of its length

@@ -24,7 +24,7 @@ brisance_floor(mesh USES base LIBRARIES Boost::headers Qhull::qhull_r nlohmann_j
 brisance_floor(fluid USES grid mesh)
 brisance_floor(particles USES grid mesh)
 brisance_floor(rigid USES grid mesh)
-brisance_floor(fracture USES grid mesh LIBRARIES Eigen3::Eigen Boost::headers TBB::tbb)
+brisance_floor(fracture USES grid mesh LIBRARIES Eigen3::Eigen Boost::headers TBB::tbb TBB::tbbmalloc)
 brisance_floor(frame USES grid mesh LIBRARIES ${OPENVDB_LIBRARY} PkgConfig::IMATH TBB::tbb nlohmann_json::nlohmann_json)
 brisance_floor(simulation USES fluid particles rigid fracture frame LIBRARIES nlohmann_json::nlohmann_json)
 brisance_floor(render USES frame LIBRARIES embree PNG::PNG JPEG::JPEG PkgConfig::OPENEXR TBB::tbb)

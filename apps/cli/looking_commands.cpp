@@ -7,7 +7,7 @@
 #include "commands.h"
 #include "frame/run_directory.h"
 #include "mesh/mesh_file.h"
-#include "mesh/mesh_topology.h"
+#include "mesh/mesh_report.h"
 #include "scene/estimate.h"
 #include "scene/reference.h"
 
@@ -52,19 +52,8 @@ int describeRun(const Options& options) {
 }
 
 int describeMesh(const Options& options) {
-  const TriangleMesh mesh = readObj(options.path);
-  const Box3 box = bounds(mesh);
-  const bool closed = isClosed(mesh);
-  const Vec3d size = box.size();
-  const json facts = {{"kind", "mesh"},
-                      {"vertices", mesh.vertices.size()},
-                      {"triangles", mesh.triangles.size()},
-                      {"closed", closed},
-                      {"size", {size.x, size.y, size.z}}};
-  print(options,
-        fmt::format("mesh: {} vertices, {} triangles, {}, {:.4g} x {:.4g} x {:.4g}", mesh.vertices.size(),
-                    mesh.triangles.size(), closed ? "closed" : "open", size.x, size.y, size.z),
-        facts.dump());
+  const MeshReport report = examine(readMesh(options.path));
+  print(options, meshReportText(report), meshReportJson(report));
   return static_cast<int>(ExitCode::done);
 }
 
@@ -91,9 +80,9 @@ int checkCommand(const Options& options) {
 int infoCommand(const Options& options) {
   if (!fs::exists(options.path))
     throw InputError(
-        fmt::format("{}: does not exist; name a run directory, a scene or an OBJ file", options.path.string()));
+        fmt::format("{}: does not exist; name a run directory, a scene or a mesh file", options.path.string()));
   if (fs::is_directory(options.path)) return describeRun(options);
-  return options.path.extension() == ".obj" ? describeMesh(options) : describeScene(options);
+  return namesMeshFile(options.path) ? describeMesh(options) : describeScene(options);
 }
 
 int verifyCommand(const Options& options) {

@@ -29,6 +29,8 @@ bool take(std::string_view& text, char letter) {
 /// What CLI11 writes into while it reads.
 struct RawOptions {
   Options options;
+  RawFractureOptions fracture;
+  const CLI::App* fractureCommand = nullptr;
   std::string frames, size;
   int samples = 0;
   bool overwrite = false, resume = false;
@@ -110,6 +112,16 @@ void addPictureCommands(CLI::App& app, RawOptions& raw) {
   addWorkOptions(encode, raw);
 }
 
+void addFractureCommand(CLI::App& app, RawOptions& raw) {
+  CLI::App* fracture = addCommand(app, raw, "fracture", "break a mesh, or the bodies of a scene, into pieces");
+  addPath(fracture, raw, "MESH", "OBJ, PLY, STL or glTF; or a scene file");
+  addFractureOptions(*fracture, raw.fracture);
+  fracture->add_option("--size", raw.size, "of the picture; 960x720 where not given")->option_text("WxH");
+  fracture->add_flag("--overwrite", raw.overwrite, "replace files that are there");
+  addWorkOptions(fracture, raw);
+  raw.fractureCommand = fracture;
+}
+
 void addLookingCommands(CLI::App& app, RawOptions& raw) {
   CLI::App* info = addCommand(app, raw, "info", "what a run, a scene or a mesh holds");
   addPath(info, raw, "PATH", "a run directory, a scene file or an OBJ file");
@@ -143,6 +155,7 @@ Options finished(RawOptions raw) {
   Options options = std::move(raw.options);
   if (!raw.frames.empty()) options.frames = parseFrameRange(raw.frames);
   if (!raw.size.empty()) options.size = parsePictureSize(raw.size);
+  if (options.command == "fracture") options.fracture = finished(raw.fracture, *raw.fractureCommand);
   if (raw.samples > 0) options.samples = raw.samples;
   if (raw.overwrite) options.existing = ExistingRun::overwrite;
   if (raw.resume) options.existing = ExistingRun::resume;
@@ -178,6 +191,7 @@ CommandLine parseCommandLine(int count, const char* const* arguments) {
   RawOptions raw;
   addSceneCommands(app, raw);
   addPictureCommands(app, raw);
+  addFractureCommand(app, raw);
   addLookingCommands(app, raw);
   refuseUnknownCommand(app, count, arguments);
   try {

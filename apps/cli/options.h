@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "fracture_options.h"
+
 namespace brisance {
 
 /// Frames first, first + step, ... up to last; all count from 1.
@@ -31,7 +33,7 @@ enum class ExistingRun { refuse, overwrite, resume };
 struct Options {
   std::vector<std::string> arguments;  ///< as typed, the program's name first
   std::string command;
-  std::filesystem::path path;                  ///< SCENE, RUN or PATH
+  std::filesystem::path path;                  ///< SCENE, RUN, MESH or PATH
   std::filesystem::path output;                ///< empty: not given
   std::string page;                            ///< of `reference`
   std::optional<FrameRange> frames;            ///< absent: all
@@ -40,6 +42,7 @@ struct Options {
   std::vector<std::string> overrides;          ///< "key.path=value"
   int threads = 0;                             ///< 0: all cores
   ExistingRun existing = ExistingRun::refuse;  ///< --overwrite, --resume
+  FractureOptions fracture;
   bool skipExisting = false;
   bool json = false;
   bool quiet = false;

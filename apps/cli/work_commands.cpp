@@ -1,9 +1,9 @@
 // The commands that make something: run, simulate, render, encode.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "base/check.h"
+#include "base/stopwatch.h"
 #include "commands.h"
 #include "interruption.h"
 #include "prepared_run.h"
@@ -25,14 +25,6 @@ struct Work {
   RunDirectory& run;
   ProgressBar& bar;
   RunRecord& record;
-};
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 /// --set, and after it --size and --samples as the keys that they stand for, so that one reader checks them all.

@@ -54,6 +54,31 @@ SinCos portableSinCos(double radians) {
   }
 }
 
+double portableAtan2(double y, double x) {
+  const double rise = std::abs(y), run = std::abs(x);
+  const double longer = std::max(rise, run), shorter = std::min(rise, run);
+  if (longer == 0) return 0;
+  // The tangent t in [0, 1] lies within 1/16 of k/8: atan t = atan k/8 + atan r, |r| <= 1/16; Taylor to r^13.
+  constexpr std::array<double, 9> arcTangentOfEighths{0.0,
+                                                      0.12435499454676144,
+                                                      0.24497866312686414,
+                                                      0.35877067027057225,
+                                                      0.4636476090008061,
+                                                      0.5585993153435624,
+                                                      0.6435011087932844,
+                                                      0.7188299996216245,
+                                                      0.7853981633974483};
+  const double t = shorter / longer, k = std::floor(8 * t + 0.5);
+  const double r = (t - k / 8) / (1 + t * k / 8), r2 = r * r;
+  constexpr std::array<double, 6> taylor{1.0 / 13, -1.0 / 11, 1.0 / 9, -1.0 / 7, 1.0 / 5, -1.0 / 3};
+  double sum = 0;
+  for (const double term : taylor) sum = sum * r2 + term;
+  double angle = arcTangentOfEighths[static_cast<std::size_t>(k)] + (r + r * r2 * sum);
+  if (rise > run) angle = pi / 2 - angle;
+  if (x < 0) angle = pi - angle;
+  return y < 0 ? -angle : angle;
+}
+
 Quaternion axisAngle(const Vec3d& axis, double radians) {
   const auto [s, c] = portableSinCos(radians / 2);
   return {c, axis.x * s, axis.y * s, axis.z * s};

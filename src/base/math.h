@@ -163,7 +163,7 @@ struct Pose {
   friend Vec3d operator*(const Pose& pose, const Vec3d& p) { return rotate(pose.orientation, p) + pose.position; }
 };
 
-/// exp, log and sine/cosine in double from +, -, *, / alone: the same bits on every processor, where the C library
+/// exp, log, sine/cosine and arc tangent in double from +, -, *, / alone: the same bits on every processor, where the C library
 /// picks variants with fused multiply-add by what it runs on. Relative error below 1e-15.
 double portableExp(double x);
 double portableLog(double x);  ///< of x > 0
@@ -171,6 +171,8 @@ struct SinCos {
   double sin, cos;
 };
 SinCos portableSinCos(double radians);  ///< |radians| below 1e5
+/// Angle of the point (x, y) from the x axis, from -pi to pi [radians]; 0 at the origin.
+double portableAtan2(double y, double x);
 
 /// Rotation by an angle [radians] about a unit axis.
 Quaternion axisAngle(const Vec3d& axis, double radians);

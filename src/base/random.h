@@ -17,6 +17,9 @@ enum class Stream : std::uint64_t {
   sootVelocity,
   pixelJitter,
   fractureSeed,
+  thesisRoot,
+  cellSeeds,
+  eigenvectorStart,
   solidCells,
   test
 };

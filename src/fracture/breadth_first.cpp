@@ -1,142 +1,138 @@
 #include "fracture/breadth_first.h"
 
-#include <algorithm>
-#include <queue>
+#include <cmath>
 
 #include "base/check.h"
+#include "base/parallel.h"
+#include "fracture/components.h"
 
 namespace brisance {
 namespace {
 
-/// All nodes in one list, each piece a range of it.
-class Splitter {
+/// How many nodes from the start hold first / pieces of the size; enough nodes on either side for its pieces.
+std::uint32_t cutPlace(const SubGraph& part, int firstPieces, int pieces) {
+  const std::uint32_t least = firstPieces, most = part.nodeCount() - (pieces - firstPieces);
+  const double wanted = totalSize(part) * firstPieces / pieces;
+  if (part.sizes.empty()) return std::clamp(static_cast<std::uint32_t>(std::ceil(wanted)), least, most);
+  std::uint32_t place = 0;
+  for (double sum = 0; place < most && sum + sizeOf(part, place) / 2 < wanted; ++place) sum += sizeOf(part, place);
+  return std::clamp(place, least, most);
+}
+
+/// A part numbered from one end, cut in two connected sides.
+struct Sides {
+  std::uint32_t place;    ///< nodes below it are the first side's
+  Sweep first;            ///< the first side, open
+  Sweep second;           ///< the second side, numbered from the far end
+  double secondSize = 0;  ///< of its nodes
+  explicit Sides(const SubGraph& part, std::uint32_t place_);
+};
+
+/// The nodes from `place` on without all islands but their largest; of equals the one nearer to the end.
+Sides::Sides(const SubGraph& part, std::uint32_t place_)
+    : place(place_), first(part.nodeCount()), second(part.nodeCount()) {
+  const std::uint32_t end = part.nodeCount();
+  second.openRange(place, end);
+  std::uint32_t left = end - place, largest = 0, largestStart = 0;
+  for (std::uint32_t start = end; start-- > place && left > largest;) {
+    if (!second.isOpen(start)) continue;
+    const std::uint32_t count = second.from(start, part);
+    left -= count;
+    if (count > largest) std::tie(largest, largestStart) = std::pair(count, start);
+  }
+  if (largest < end - place) {
+    second.reopen();
+    second.from(largestStart, part);
+    for (std::uint32_t node = place; node < end; ++node)
+      if (second.isOpen(node)) second.close(node);
+  }
+  first.openRange(0, end);
+  for (const std::uint32_t node : second.order()) {
+    first.close(node);
+    secondSize += sizeOf(part, node);
+  }
+}
+
+/// Divides parts and notes the piece of every node; a part's pieces have consecutive numbers.
+class Divider {
  public:
-  explicit Splitter(const FractureGraph& graph)
-      : graph_(graph), pieceOf_(graph.nodeCount(), unassigned), seenIn_(graph.nodeCount(), 0) {
-    for (std::uint32_t node = 0; node < pieceOf_.size(); ++node)
-      if (pieceOf_[node] == unassigned) addComponent(node);
-  }
+  explicit Divider(std::vector<int>& pieceOf) : pieceOf_(pieceOf) {}
 
-  void splitInto(int pieces) {
-    while (static_cast<int>(ranges_.size()) < pieces) {
-      const int piece = largest_.top().piece;
-      largest_.pop();
-      split(piece);
-      enter(piece);
-      enter(static_cast<int>(ranges_.size()) - 1);
-    }
-  }
-
-  /// Pieces in order of their lowest node.
-  Partition result() const {
-    std::vector<int> numberOf(ranges_.size(), unassigned);
-    Partition partition;
-    for (const int piece : pieceOf_) {
-      if (numberOf[piece] == unassigned) numberOf[piece] = partition.count++;
-      partition.pieceOf.push_back(numberOf[piece]);
-    }
-    return partition;
+  void divide(const SubGraph& part, int firstPiece, int pieces) {
+    if (pieces == 1) return assign(part, firstPiece);
+    Sides sides(part, cutPlace(part, (pieces + 1) / 2, pieces));
+    const int ofFirst = piecesOfFirst(part, sides, pieces);
+    const auto side = [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
+        if (i == 0)
+          divideFirst(part, sides, firstPiece, ofFirst);
+        else
+          divideSecond(part, sides, firstPiece + ofFirst, pieces - ofFirst);
+    };
+    parallelFor(0, 2, part.nodeCount() < leastTask ? 2 : 1, side);
   }
 
  private:
-  static constexpr int unassigned = -1;
-  struct Range {
-    std::size_t begin, end;
-    std::size_t size() const { return end - begin; }
-  };
-  struct Entry {
-    std::size_t size;
-    int piece;
-    /// The largest first; of equals the one that is older.
-    bool operator<(const Entry& other) const { return size != other.size ? size < other.size : piece > other.piece; }
-  };
-  using Nodes = std::vector<std::uint32_t>;
+  static constexpr std::uint32_t leastTask = 4096;  ///< nodes that are worth a thread's while
 
-  void enter(int piece) { largest_.push({ranges_[piece].size(), piece}); }
-
-  /// Appends to `order` all nodes of the piece that are reached from `start` and not seen in this sweep, nearest first.
-  void sweep(std::uint32_t start, Nodes& order) {
-    const int piece = pieceOf_[start];
-    std::size_t next = order.size();
-    seenIn_[start] = sweep_;
-    order.push_back(start);
-    for (; next < order.size(); ++next)
-      for (const std::uint32_t node : graph_.neighbours(order[next])) {
-        if (pieceOf_[node] != piece || seenIn_[node] == sweep_) continue;
-        seenIn_[node] = sweep_;
-        order.push_back(node);
-      }
-  }
-  Nodes sweepFrom(std::uint32_t start) {
-    ++sweep_;
-    Nodes order;
-    sweep(start, order);
-    return order;
+  void assign(const SubGraph& part, int piece) {
+    for (const std::uint32_t name : part.names) pieceOf_[name] = piece;
   }
 
-  void addComponent(std::uint32_t start) {
-    const Nodes nodes = sweepFrom(start);
-    for (const std::uint32_t node : nodes) pieceOf_[node] = static_cast<int>(ranges_.size());
-    ranges_.push_back({order_.size(), order_.size() + nodes.size()});
-    order_.insert(order_.end(), nodes.begin(), nodes.end());
-    enter(static_cast<int>(ranges_.size()) - 1);
+  /// In proportion to what the sides really hold, and never more than they have nodes.
+  static int piecesOfFirst(const SubGraph& part, const Sides& sides, int pieces) {
+    const double total = totalSize(part);
+    const auto share = static_cast<int>(std::lround(pieces * (total - sides.secondSize) / total));
+    const auto nodesOfSecond = static_cast<int>(sides.second.count());
+    const int nodesOfFirst = static_cast<int>(part.nodeCount()) - nodesOfSecond;
+    return std::clamp(share, std::max(1, pieces - nodesOfSecond), std::min(pieces - 1, nodesOfFirst));
   }
 
-  /// The second half of the breadth-first order without its largest island goes back to the first half.
-  void split(int piece) {
-    const Range range = ranges_[piece];
-    const std::uint32_t any = order_[range.begin];
-    const std::uint32_t end = sweepFrom(sweepFrom(any).back()).back();
-    const Nodes order = sweepFrom(end);
-    CHECK(order.size() == range.size() && order.size() >= 2, "piece {}: {} of {} nodes", piece, order.size(),
-          range.size());
-    const auto half = order.begin() + static_cast<std::ptrdiff_t>((order.size() + 1) / 2);
-    const auto newPiece = static_cast<int>(ranges_.size());
-    for (auto node = half; node != order.end(); ++node) pieceOf_[*node] = newPiece;
-    const Nodes island = largestIsland(Nodes(half, order.end()));
-    for (auto node = half; node != order.end(); ++node) pieceOf_[*node] = piece;
-    for (const std::uint32_t node : island) pieceOf_[node] = newPiece;
-    const auto place = order_.begin() + static_cast<std::ptrdiff_t>(range.begin);
-    std::partition_copy(order.begin(), order.end(), place,
-                        place + static_cast<std::ptrdiff_t>(order.size() - island.size()),
-                        [&](std::uint32_t node) { return pieceOf_[node] == piece; });
-    const std::size_t middle = range.end - island.size();
-    ranges_[piece].end = middle;
-    ranges_.push_back({middle, range.end});
+  void divideFirst(const SubGraph& part, Sides& sides, int firstPiece, int pieces) {
+    if (pieces > 1) return divide(orderedFromAnEnd(part, sides.first, sides.place - 1), firstPiece, pieces);
+    for (std::uint32_t node = 0; node < part.nodeCount(); ++node)
+      if (sides.first.isOpen(node)) pieceOf_[part.names[node]] = firstPiece;
   }
 
-  /// Of nodes that are one piece by number; the first of equals.
-  Nodes largestIsland(const Nodes& nodes) {
-    ++sweep_;
-    Nodes largest, island;
-    for (const std::uint32_t node : nodes) {
-      if (seenIn_[node] == sweep_) continue;
-      island.clear();
-      sweep(node, island);
-      if (island.size() > largest.size()) std::swap(island, largest);
-    }
-    return largest;
+  void divideSecond(const SubGraph& part, Sides& sides, int firstPiece, int pieces) {
+    for (const std::uint32_t node : sides.second.order()) pieceOf_[part.names[node]] = firstPiece;
+    if (pieces == 1) return;
+    const std::uint32_t end = sides.second.order().back();
+    sides.second.reopen();
+    sides.second.from(end, part);
+    divide(sides.second.part(part), firstPiece, pieces);
   }
 
-  const FractureGraph& graph_;
-  std::vector<int> pieceOf_;
-  std::vector<std::uint32_t> seenIn_;  ///< the sweep that saw the node last
-  std::uint32_t sweep_ = 0;
-  Nodes order_;
-  std::vector<Range> ranges_;
-  std::priority_queue<Entry> largest_;
+  std::vector<int>& pieceOf_;
 };
+
+SubGraph fromAnEnd(const SubGraph& part) {
+  Sweep sweep(part.nodeCount());
+  sweep.openRange(0, part.nodeCount());
+  return orderedFromAnEnd(part, sweep, part.nodeCount() - 1);
+}
 
 }  // namespace
 
 Partition partitionBreadthFirst(const FractureGraph& graph, int pieces) {
   CHECK(pieces >= 1, "pieces {}", pieces);
-  if (graph.nodeCount() < pieces)
-    throw InputError(fmt::format("fracture: pieces: must be at most the number of triangles, {}, got {}",
-                                 graph.nodeCount(), pieces));
-  Splitter splitter(graph);
-  splitter.splitInto(pieces);
-  return splitter.result();
+  checkPieceCount(graph, pieces);
+  const std::vector<SubGraph> parts = componentsOf(graph);
+  const std::vector<int> shares = sharePieces(parts, pieces);
+  Partition partition{std::vector<int>(graph.nodeCount()), 0};
+  Divider divider(partition.pieceOf);
+  for (std::size_t i = 0; i < parts.size(); partition.count += shares[i++])
+    divider.divide(fromAnEnd(parts[i]), partition.count, shares[i]);
+  numberByLowestNode(partition);
+  return partition;
+}
+
+std::vector<std::uint32_t> breadthFirstHalf(const SubGraph& part) {
+  const SubGraph ordered = fromAnEnd(part);
+  const Sides sides(ordered, cutPlace(ordered, 1, 2));
+  std::vector<std::uint32_t> half;
+  for (const std::uint32_t node : sides.second.order()) half.push_back(ordered.names[node]);
+  return half;
 }
 
 }  // namespace brisance

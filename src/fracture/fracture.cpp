@@ -3,26 +3,12 @@
 #include <map>
 
 #include "base/check.h"
-#include "fracture/breadth_first.h"
+#include "fracture/partition.h"
 #include "mesh/extrusion.h"
 #include "mesh/mesh_topology.h"
 
 namespace brisance {
 namespace {
-
-struct RunPartitioner {
-  const FractureGraph& graph;
-  int pieces;
-  Partition operator()(const BreadthFirst&) const { return partitionBreadthFirst(graph, pieces); }
-  template <class Other>
-  Partition operator()(const Other&) const {
-    throw InputError("fracture: method: only breadth_first is known here");
-  }
-};
-
-Partition partition(const FractureGraph& graph, const FractureSettings& settings) {
-  return std::visit(RunPartitioner{graph, settings.pieces}, settings.method);
-}
 
 std::vector<std::vector<std::uint32_t>> trianglesByPiece(const Partition& partition) {
   std::vector<std::vector<std::uint32_t>> result(partition.count);
@@ -94,13 +80,6 @@ TriangleMesh flatSurface(const FlatMesh& flat) {
   return mesh;
 }
 
-/// As many border points as keep the distance that the points inside have on average.
-int borderPoints(const PaneSettings& pane) {
-  if (pane.points < 1) return 0;
-  const double spacing = std::sqrt(pane.width * pane.height / pane.points);
-  return static_cast<int>(std::lround(2 * (pane.width + pane.height) / spacing));
-}
-
 /// Some triangles of a mesh, with the vertices they use in their old order.
 TriangleMesh subset(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
   std::vector<std::uint32_t> used;
@@ -142,19 +121,41 @@ Piece wholePiece(TriangleMesh mesh, double shellThickness) {
   return settled(std::move(mesh), properties);
 }
 
+void recordCut(const Cut& cut, FracturedBody& body) {
+  body.eigenvalues = cut.eigenvalues;
+  body.graphSeconds = cut.graphSeconds;
+  body.partitionSeconds = cut.partitionSeconds;
+}
+
 }  // namespace
 
+CutLine cutLine(const TriangleMesh& mesh, const std::vector<int>& pieceOfTriangle) {
+  CutLine line;
+  const std::vector<Triangle> neighbours = edgeNeighbours(surfaceOf(mesh));
+  for (std::uint32_t t = 0; t < neighbours.size(); ++t)
+    for (int edge = 0; edge < 3; ++edge) {
+      const std::uint32_t other = neighbours[t][edge];
+      if (other == noTriangle || other < t || pieceOfTriangle[t] == pieceOfTriangle[other]) continue;
+      ++line.edges;
+      line.length += edgeLength(mesh, t, edge);
+    }
+  return line;
+}
+
 FracturedBody fracturePane(const PaneSettings& pane, const FractureSettings& fracture, std::uint64_t seed) {
-  const std::vector<Vec2d> points = panePoints(pane.width, pane.height, pane.points, borderPoints(pane), seed);
-  const FlatMesh flat = triangulate(points, pane.triangulation, seed);
-  const Partition cut = partition(triangleGraph(flat.triangles, flat.points.size()), fracture);
+  const PanePoints points = placePoints(pane.outline, pane.pattern, pane.points, seed);
+  const FlatMesh flat = triangulatePane(points, pane.triangulation, seed);
+  const TriangleMesh sheet = flatSurface(flat);
+  const Cut cut = partitionSurface(sheet, fracture);
   FracturedBody body;
-  for (const auto& triangles : trianglesByPiece(cut)) {
+  body.solid = true;
+  for (const auto& triangles : trianglesByPiece(cut.partition)) {
     TriangleMesh solid = extrude(flat, triangles, pane.thickness);
     const MassProperties properties = solidProperties(solid);
     body.pieces.push_back(settled(std::move(solid), properties));
   }
-  body.bonds = bondsBetween(flatSurface(flat), cut, body.pieces, pane.thickness);
+  body.bonds = bondsBetween(sheet, cut.partition, body.pieces, pane.thickness);
+  recordCut(cut, body);
   return body;
 }
 
@@ -162,16 +163,19 @@ FracturedBody fractureMesh(const TriangleMesh& mesh, const FractureSettings& fra
   FracturedBody body;
   if (fracture.pieces == 1) {
     body.pieces.push_back(wholePiece(mesh, shellThickness));
+    body.pieceOfTriangle.assign(mesh.triangles.size(), 0);
     return body;
   }
   const TriangleMesh surface = surfaceOf(mesh);
-  const Partition cut = partition(triangleGraph(surface), fracture);
-  for (const auto& triangles : trianglesByPiece(cut)) {
+  Cut cut = partitionSurface(surface, fracture);
+  for (const auto& triangles : trianglesByPiece(cut.partition)) {
     TriangleMesh shell = subset(mesh, triangles);
     const MassProperties properties = shellProperties(shell, shellThickness);
     body.pieces.push_back(settled(std::move(shell), properties));
   }
-  body.bonds = bondsBetween(surface, cut, body.pieces, shellThickness);
+  body.bonds = bondsBetween(surface, cut.partition, body.pieces, shellThickness);
+  recordCut(cut, body);
+  body.pieceOfTriangle = std::move(cut.partition.pieceOf);
   return body;
 }
 

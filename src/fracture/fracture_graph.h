@@ -31,4 +31,10 @@ struct Partition {
   int count = 0;
 };
 
+/// Throws InputError if there are fewer nodes than pieces.
+void checkPieceCount(const FractureGraph& graph, int pieces);
+
+/// Numbers pieces in order of their lowest node.
+void numberByLowestNode(Partition& partition);
+
 }  // namespace brisance

@@ -1,8 +1,7 @@
 #include "mesh/extrusion.h"
 
-#include <numeric>
-
 #include "base/check.h"
+#include "mesh/disjoint_sets.h"
 #include "mesh/mesh_topology.h"
 
 namespace brisance {
@@ -30,27 +29,14 @@ LocalTriangles chosenTriangles(const FlatMesh& flat, const std::vector<std::uint
   return local;
 }
 
-/// Sets of triangle corners (3 triangle + corner) that are joined around their vertex by shared edges.
-class CornerSets {
- public:
-  explicit CornerSets(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 std::uint32_t cornerAt(const std::vector<Triangle>& triangles, std::uint32_t triangle, std::uint32_t vertex) {
   const Triangle& t = triangles[triangle];
   return 3 * triangle + static_cast<std::uint32_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
 }
 
-CornerSets joinFans(const std::vector<Triangle>& triangles, const std::vector<Triangle>& neighbours) {
-  CornerSets sets(3 * triangles.size());
+/// Corners (3 triangle + corner) that are joined around their vertex by shared edges.
+DisjointSets joinFans(const std::vector<Triangle>& triangles, const std::vector<Triangle>& neighbours) {
+  DisjointSets sets(3 * triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     for (std::uint32_t edge = 0; edge < 3; ++edge) {
       const std::uint32_t other = neighbours[t][edge], next = (edge + 1) % 3;
@@ -63,7 +49,7 @@ CornerSets joinFans(const std::vector<Triangle>& triangles, const std::vector<Tr
 
 /// Each fan of triangles around a vertex gets a copy of that vertex: the solid's edges then have two sides each.
 void splitFans(LocalTriangles& local, const std::vector<Triangle>& neighbours) {
-  CornerSets sets = joinFans(local.triangles, neighbours);
+  DisjointSets sets = joinFans(local.triangles, neighbours);
   std::vector<std::uint32_t> vertexOf(3 * local.triangles.size()), origin;
   for (std::uint32_t corner = 0; corner < vertexOf.size(); ++corner) {
     std::uint32_t& vertex = local.triangles[corner / 3][corner % 3];
@@ -77,8 +63,25 @@ void splitFans(LocalTriangles& local, const std::vector<Triangle>& neighbours) {
   local.origin = std::move(origin);
 }
 
-void addVertices(TriangleMesh& solid, const FlatMesh& flat, const LocalTriangles& local, double z) {
-  for (const std::uint32_t v : local.origin) solid.vertices.push_back({flat.points[v].x, flat.points[v].y, z});
+/// Stretches a picture over a box: (0, 0) at its lower left corner.
+struct PictureBox {
+  Vec3d lower, size;
+  Vec2d uv(const Vec2d& p) const { return {(p.x - lower.x) / size.x, (p.y - lower.y) / size.y}; }
+};
+
+PictureBox pictureBox(const FlatMesh& flat) {
+  Box3 box;
+  for (const Triangle& t : flat.triangles)
+    for (const std::uint32_t v : t) box.include({flat.points[v].x, flat.points[v].y, 0});
+  return {box.lower, box.size()};
+}
+
+void addVertices(TriangleMesh& solid, const FlatMesh& flat, const LocalTriangles& local, const PictureBox& picture,
+                 double z) {
+  for (const std::uint32_t v : local.origin) {
+    solid.vertices.push_back({flat.points[v].x, flat.points[v].y, z});
+    solid.uvs.push_back(picture.uv(flat.points[v]));
+  }
 }
 
 }  // namespace
@@ -88,8 +91,9 @@ TriangleMesh extrude(const FlatMesh& flat, const std::vector<std::uint32_t>& tri
   const std::vector<Triangle> neighbours = edgeNeighbours(local.triangles, local.origin.size());
   splitFans(local, neighbours);
   TriangleMesh solid;
-  addVertices(solid, flat, local, thickness / 2);
-  addVertices(solid, flat, local, -thickness / 2);
+  const PictureBox picture = pictureBox(flat);
+  addVertices(solid, flat, local, picture, thickness / 2);
+  addVertices(solid, flat, local, picture, -thickness / 2);
   const auto below = static_cast<std::uint32_t>(local.origin.size());
   for (const auto& [a, b, c] : local.triangles) {
     solid.triangles.push_back({a, b, c});

@@ -1,8 +1,7 @@
 #include "mesh/lattice_points.h"
 
-#include <numeric>
-
 #include "base/check.h"
+#include "base/parallel.h"
 
 namespace brisance {
 namespace {
@@ -21,14 +20,35 @@ std::int32_t nodeOf(double x, double origin, double step) {
   return static_cast<std::int32_t>(std::lround((x - origin) / step));
 }
 
+/// A node's lexicographic place in one number, and the point on it.
+struct PlacedPoint {
+  std::uint64_t place;
+  std::uint32_t point;
+  friend bool operator<(const PlacedPoint& a, const PlacedPoint& b) {
+    return a.place != b.place ? a.place < b.place : a.point < b.point;
+  }
+};
+
+/// Halves sorted on threads of their own, then merged.
+void sortInHalves(std::vector<PlacedPoint>& order) {
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
+  parallelFor(0, 2, 1, [&](std::int64_t begin, std::int64_t end) {
+    if (begin == 0) std::sort(order.begin(), middle);
+    if (end == 2) std::sort(middle, order.end());
+  });
+  std::inplace_merge(order.begin(), middle, order.end());
+}
+
 std::vector<std::uint32_t> distinctNodes(const std::vector<LatticePoint>& nodes) {
-  std::vector<std::uint32_t> order(nodes.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return nodes[a] != nodes[b] ? nodes[a] < nodes[b] : a < b; });
-  order.erase(std::unique(order.begin(), order.end(), [&](auto a, auto b) { return nodes[a] == nodes[b]; }),
-              order.end());
-  return order;
+  std::vector<PlacedPoint> order(nodes.size());
+  for (std::uint32_t i = 0; i < nodes.size(); ++i)
+    order[i] = {static_cast<std::uint64_t>(nodes[i].x) << 32 | static_cast<std::uint64_t>(nodes[i].y), i};
+  sortInHalves(order);
+  std::vector<std::uint32_t> distinct;
+  distinct.reserve(nodes.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (i == 0 || order[i].place != order[i - 1].place) distinct.push_back(order[i].point);
+  return distinct;
 }
 
 }  // namespace
@@ -43,11 +63,16 @@ LatticePoints snapToLattice(const std::vector<Vec2d>& points) {
   // The origin is a multiple of the step, so that every place below is exact.
   const Vec2d origin{std::round(box.lower.x / step) * step, std::round(box.lower.y / step) * step};
   LatticePoints result;
-  for (const Vec2d& p : points) {
-    const LatticePoint node{nodeOf(p.x, origin.x, step), nodeOf(p.y, origin.y, step)};
-    result.nodes.push_back(node);
-    result.points.push_back({origin.x + node.x * step, origin.y + node.y * step});
-  }
+  result.nodes.resize(points.size());
+  result.points.resize(points.size());
+  constexpr std::int64_t block = 1 << 14;
+  parallelFor(0, static_cast<std::int64_t>(points.size()), block, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      const LatticePoint node{nodeOf(points[i].x, origin.x, step), nodeOf(points[i].y, origin.y, step)};
+      result.nodes[i] = node;
+      result.points[i] = {origin.x + node.x * step, origin.y + node.y * step};
+    }
+  });
   result.distinct = distinctNodes(result.nodes);
   return result;
 }

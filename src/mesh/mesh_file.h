@@ -1,4 +1,4 @@
-// Meshes from files.
+// Meshes from files, and into them.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,15 @@
 
 namespace brisance {
 
-/// Wavefront OBJ: v, vt, vn, f (any polygon, fanned; negative indices), usemtl as material names. Vertices are split
-/// only where a position is used with several vt/vn. Throws DamagedFile("PATH:LINE: what is wrong, what would be
-/// right") for a bad index, a number that is not finite, a face of fewer than three corners, no face at all; InputError
-/// when the file does not exist.
+/// OBJ, PLY, STL or glTF 2.0 (mesh_formats.h), by content where it tells and by extension otherwise. Throws DamagedFile
+/// in one line for what is damaged or not accepted; InputError where there is no such file, or of no known format.
+TriangleMesh readMesh(const std::filesystem::path& path);
+/// Whether the name is that of a mesh file: .obj .ply .stl .gltf .glb in any case.
+bool namesMeshFile(const std::filesystem::path& path);
+
+/// By extension: .obj or .ply. Throws InputError for another.
+void writeMesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+
 TriangleMesh readObj(const std::filesystem::path& path);
 void writeObj(const std::filesystem::path& path, const TriangleMesh& mesh);
 

@@ -1,82 +1,60 @@
 #include "mesh/mesh_topology.h"
 
+#include <atomic>
 #include <numeric>
-#include <span>
-#include <tuple>
 
 #include "base/check.h"
+#include "base/parallel.h"
+#include "mesh/edge_uses.h"
+#include "mesh/number_table.h"
 
 namespace brisance {
 namespace {
 
-/// One triangle's use of an edge: slot = 3 triangle + edge.
-struct EdgeUse {
-  std::uint32_t high = 0;  ///< the greater of the edge's vertices
-  std::uint32_t slot = 0;
-  bool rising = false;  ///< goes from the lesser vertex to the greater
-};
-
-EdgeUse edgeUse(const std::vector<Triangle>& triangles, std::uint32_t slot) {
-  const Triangle& t = triangles[slot / 3];
-  const std::uint32_t a = t[slot % 3], b = t[(slot + 1) % 3];
-  return {std::max(a, b), slot, a < b};
-}
+constexpr std::int64_t slotsPerTask = 65536, verticesPerTask = 16384;
 
 std::uint32_t lowVertex(const std::vector<Triangle>& triangles, std::uint32_t slot) {
   const Triangle& t = triangles[slot / 3];
   return std::min(t[slot % 3], t[(slot + 1) % 3]);
 }
 
-/// All uses of edges, in rows by the lesser vertex: a counting sort, so linear in the number of triangles.
-struct EdgeRows {
-  std::vector<std::size_t> first;
-  std::vector<EdgeUse> uses;
-};
+}  // namespace
 
 EdgeRows edgeRows(const std::vector<Triangle>& triangles, std::size_t vertexCount) {
   const auto slots = static_cast<std::uint32_t>(3 * triangles.size());
-  EdgeRows rows{std::vector<std::size_t>(vertexCount + 1, 0), std::vector<EdgeUse>(slots)};
-  for (std::uint32_t slot = 0; slot < slots; ++slot) {
-    const std::uint32_t vertex = triangles[slot / 3][slot % 3];
-    CHECK(vertex < vertexCount, "triangle {} names vertex {} of {}", slot / 3, vertex, vertexCount);
-    ++rows.first[lowVertex(triangles, slot) + 1];
-  }
-  for (std::size_t v = 0; v < vertexCount; ++v) rows.first[v + 1] += rows.first[v];
-  std::vector<std::size_t> next(rows.first.begin(), rows.first.end() - 1);
-  for (std::uint32_t slot = 0; slot < slots; ++slot)
-    rows.uses[next[lowVertex(triangles, slot)]++] = edgeUse(triangles, slot);
+  EdgeRows rows{std::vector<std::uint32_t>(vertexCount + 2, 0), std::vector<std::uint32_t>(slots)};
+  // Counts go two places on, so that counting places forward leaves each row's begin where it belongs.
+  const auto claim = [&](std::uint32_t vertex, int ahead) {
+    return std::atomic_ref(rows.first[vertex + ahead]).fetch_add(1, std::memory_order_relaxed);
+  };
+  parallelFor(0, slots, slotsPerTask, [&](std::int64_t begin, std::int64_t end) {
+    for (auto slot = static_cast<std::uint32_t>(begin); slot < end; ++slot) {
+      const std::uint32_t vertex = triangles[slot / 3][slot % 3];
+      CHECK(vertex < vertexCount, "triangle {} names vertex {} of {}", slot / 3, vertex, vertexCount);
+    }
+    for (auto slot = static_cast<std::uint32_t>(begin); slot < end; ++slot) claim(lowVertex(triangles, slot), 2);
+  });
+  std::partial_sum(rows.first.begin(), rows.first.end(), rows.first.begin());
+  parallelFor(0, slots, slotsPerTask, [&](std::int64_t begin, std::int64_t end) {
+    for (auto slot = static_cast<std::uint32_t>(begin); slot < end; ++slot)
+      rows.slots[claim(lowVertex(triangles, slot), 1)] = slot;
+  });
   return rows;
 }
 
-/// Calls visit(low vertex, uses of one edge in order of slots) for every edge.
-template <class Visit>
-void forEachEdge(const std::vector<Triangle>& triangles, std::size_t vertexCount, const Visit& visit) {
-  EdgeRows rows = edgeRows(triangles, vertexCount);
-  for (std::size_t v = 0; v < vertexCount; ++v) {
-    const auto begin = rows.uses.begin() + static_cast<std::ptrdiff_t>(rows.first[v]);
-    const auto end = rows.uses.begin() + static_cast<std::ptrdiff_t>(rows.first[v + 1]);
-    std::sort(begin, end,
-              [](const EdgeUse& a, const EdgeUse& b) { return a.high != b.high ? a.high < b.high : a.slot < b.slot; });
-    for (auto group = begin; group != end;) {
-      const auto next = std::find_if(group, end, [&](const EdgeUse& use) { return use.high != group->high; });
-      visit(static_cast<std::uint32_t>(v), std::span<const EdgeUse>(group, next));
-      group = next;
-    }
-  }
-}
-
-}  // namespace
-
 std::vector<Triangle> edgeNeighbours(const std::vector<Triangle>& triangles, std::size_t vertexCount) {
   std::vector<Triangle> neighbours(triangles.size(), Triangle{noTriangle, noTriangle, noTriangle});
-  forEachEdge(triangles, vertexCount, [&](std::uint32_t low, std::span<const EdgeUse> uses) {
+  const auto join = [&](std::uint32_t low, std::span<const EdgeUse> uses) {
     if (uses[0].high == low) return;  // an edge from a vertex to itself joins nothing
     for (std::size_t i = 0; i + 1 < uses.size(); i += 2) {
       const std::uint32_t a = uses[i].slot, b = uses[i + 1].slot;
       neighbours[a / 3][a % 3] = b / 3;
       neighbours[b / 3][b % 3] = a / 3;
     }
-  });
+  };
+  const EdgeRows rows = edgeRows(triangles, vertexCount);
+  parallelFor(0, static_cast<std::int64_t>(vertexCount), verticesPerTask,
+              [&](std::int64_t from, std::int64_t to) { forEdgesOf(rows, triangles, from, to, join); });
   return neighbours;
 }
 
@@ -92,17 +70,17 @@ bool isClosed(const TriangleMesh& mesh) {
   return closed;
 }
 
+std::vector<std::uint32_t> samePlaces(const std::vector<Vec3d>& places) {
+  NumberTable table(places.size());
+  std::vector<std::uint32_t> first(places.size());
+  for (std::uint32_t v = 0; v < first.size(); ++v)
+    first[v] = table.findOrAdd(hashOf(places[v]), v, [&](std::uint32_t other) { return places[other] == places[v]; });
+  return first;
+}
+
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result{mesh.vertices, mesh.triangles, {}, {}, {}, {}};
-  std::vector<std::uint32_t> order(mesh.vertices.size()), first(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t v) {
-    return std::tie(mesh.vertices[v].x, mesh.vertices[v].y, mesh.vertices[v].z);
-  };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? first[order[i - 1]] : order[i];
+  const std::vector<std::uint32_t> first = samePlaces(mesh.vertices);
   for (Triangle& t : result.triangles)
     for (std::uint32_t& v : t) v = first[v];
   return result;

@@ -10,6 +10,11 @@ class TriangleNet {
   TriangleNet(std::vector<Triangle> triangles, std::size_t vertexCount)
       : triangles_(std::move(triangles)), neighbours_(edgeNeighbours(triangles_, vertexCount)) {}
 
+  /// Room for so many triangles.
+  void reserve(std::size_t count) {
+    triangles_.reserve(count);
+    neighbours_.reserve(count);
+  }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   /// Across each edge (edge e joins corners e and e + 1), noTriangle at the border.
   const std::vector<Triangle>& neighbours() const { return neighbours_; }

@@ -6,37 +6,44 @@
 namespace brisance {
 namespace {
 
-/// Point at a distance along the border of a rectangle about the origin, from its lower left corner, counter-clockwise.
-Vec2d borderPoint(double width, double height, double distance) {
-  const double x = width / 2, y = height / 2;
-  if (distance < width) return {distance - x, -y};
-  if (distance < width + height) return {x, distance - width - y};
-  if (distance < 2 * width + height) return {x - (distance - width - height), y};
-  return {-x, y - (distance - 2 * width - height)};
-}
-
 struct Run {
   const LatticePoints& points;
+  const std::vector<std::uint32_t>& hull;
   std::uint64_t seed;
-  std::vector<Triangle> operator()(const Trisection&) const { return trisect(points, seed); }
+  std::vector<Triangle> operator()(const Trisection&) const { return trisect(points, hull, seed); }
   std::vector<Triangle> operator()(const Delaunay&) const { return delaunay(points); }
 };
 
-}  // namespace
+struct RunWithin {
+  const LatticePoints& points;
+  const std::vector<std::uint32_t>& border;
+  std::uint64_t seed;
+  std::vector<Triangle> operator()(const Trisection&) const { return trisect(points, border, seed); }
+  std::vector<Triangle> operator()(const Delaunay&) const {
+    return withinBorder(delaunay(points), points.nodes, border);
+  }
+};
 
-std::vector<Vec2d> panePoints(double width, double height, int count, int borderCount, std::uint64_t seed) {
-  const Random random(seed, Stream::panePoints);
-  const double x = width / 2, y = height / 2;
-  std::vector<Vec2d> points{{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-  std::uint64_t draw = 0;
-  for (int i = 0; i < count; ++i, draw += 2)
-    points.push_back({width * (random.uniform(draw) - 0.5), height * (random.uniform(draw + 1) - 0.5)});
-  // One border point at random within each of equal lengths: neither clusters nor a regular pattern.
-  const double spacing = 2 * (width + height) / std::max(1, borderCount);
-  for (int i = 0; i < borderCount; ++i, ++draw)
-    points.push_back(borderPoint(width, height, (i + random.uniform(draw)) * spacing));
-  return points;
+Int128 twiceArea(const std::vector<LatticePoint>& nodes, const std::vector<std::uint32_t>& polygon) {
+  Int128 sum = 0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    sum += orientation(nodes[polygon[0]], nodes[polygon[i]], nodes[polygon[i + 1]]);
+  return sum;
 }
+
+/// The border by the first point on each node, none twice in a row.
+std::vector<std::uint32_t> distinctBorder(const LatticePoints& points, const std::vector<std::uint32_t>& border) {
+  const auto byNode = [&](std::uint32_t a, std::uint32_t b) { return points.nodes[a] < points.nodes[b]; };
+  std::vector<std::uint32_t> result;
+  for (const std::uint32_t point : border) {
+    const std::uint32_t first = *std::lower_bound(points.distinct.begin(), points.distinct.end(), point, byNode);
+    if (result.empty() || result.back() != first) result.push_back(first);
+  }
+  if (result.size() > 1 && result.front() == result.back()) result.pop_back();
+  return result;
+}
+
+}  // namespace
 
 std::vector<std::uint32_t> hullCorners(const LatticePoints& points) {
   // Andrew's monotone chain: the lower side from left to right, then the upper one back.
@@ -59,8 +66,20 @@ std::vector<std::uint32_t> hullCorners(const LatticePoints& points) {
 
 FlatMesh triangulate(const std::vector<Vec2d>& points, const Triangulation& method, std::uint64_t seed) {
   LatticePoints lattice = snapToLattice(points);
-  if (hullCorners(lattice).size() < 3) throw InputError("triangulation: the points lie on one line, must span an area");
-  std::vector<Triangle> triangles = std::visit(Run{lattice, seed}, method);
+  const std::vector<std::uint32_t> hull = hullCorners(lattice);
+  if (hull.size() < 3) throw InputError("triangulation: the points lie on one line, must span an area");
+  std::vector<Triangle> triangles = std::visit(Run{lattice, hull, seed}, method);
+  return {std::move(lattice.points), std::move(triangles)};
+}
+
+FlatMesh triangulatePane(const PanePoints& pane, const Triangulation& method, std::uint64_t seed) {
+  LatticePoints lattice = snapToLattice(pane.points);
+  const std::vector<std::uint32_t> hull = hullCorners(lattice), border = distinctBorder(lattice, pane.border);
+  if (hull.size() < 3 || border.size() < 3)
+    throw InputError("triangulation: the border lies on one line, must enclose an area");
+  const bool convex = twiceArea(lattice.nodes, border) == twiceArea(lattice.nodes, hull);
+  std::vector<Triangle> triangles =
+      convex ? std::visit(Run{lattice, hull, seed}, method) : std::visit(RunWithin{lattice, border, seed}, method);
   return {std::move(lattice.points), std::move(triangles)};
 }
 

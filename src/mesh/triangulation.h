@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "base/random.h"
+#include "mesh/pane_points.h"
 #include "mesh/triangle_mesh.h"
 
 namespace brisance {
@@ -15,14 +15,15 @@ struct FlatMesh {
 };
 
 struct Trisection {};  ///< hull, then random interior points each split a triangle in three (thesis 3.3)
-struct Delaunay {};    ///< dual of the Voronoi diagram, exact (thesis 3.3; Boost.Polygon)
+struct Delaunay {};    ///< dual of the Voronoi diagram, exact and unique (thesis 3.3)
 using Triangulation = std::variant<Trisection, Delaunay>;
-
-/// The corners of a width x height rectangle centred on the origin, then `count` points inside it, uniform and seeded.
-/// `borderCount` further points lie on the border, so that shards' outer edges vary in length.
-std::vector<Vec2d> panePoints(double width, double height, int count, int borderCount, std::uint64_t seed);
 
 /// Triangulates the convex hull of the points; every point is used, collinear border points included.
 FlatMesh triangulate(const std::vector<Vec2d>& points, const Triangulation& method, std::uint64_t seed);
+
+/// Triangulates what the border encloses: all its edges are edges of triangles, and of two Delaunay triangles on both
+/// sides of any other edge no circle holds the other's far corner. Points outside the border are not used. Throws
+/// InputError where points on the lattice lie on one another's border edges, or the border crosses itself.
+FlatMesh triangulatePane(const PanePoints& pane, const Triangulation& method, std::uint64_t seed);
 
 }  // namespace brisance

@@ -1,4 +1,4 @@
-#include "base/check.h"
+#include "base/random.h"
 #include "mesh/triangle_net.h"
 #include "mesh/triangulation_methods.h"
 
@@ -6,29 +6,40 @@ namespace brisance {
 namespace {
 
 /// Splits triangles at random points of theirs until every point is a corner. A point on an edge waits in either of the
-/// edge's triangles, and halves both.
+/// edge's triangles, and halves both. The points that wait in one triangle lie side by side in one list.
 class Trisector {
  public:
   Trisector(const LatticePoints& points, std::vector<Triangle> start, std::uint64_t seed)
       : nodes_(points.nodes),
         net_(std::move(start), points.nodes.size()),
-        waiting_(net_.triangles().size()),
+        startOf_(net_.triangles().size()),
         random_(seed, Stream::trisection) {}
 
-  /// Puts a point into the first triangle of the start that holds it.
+  /// Puts a point into the first triangle of the start that holds it, if any does.
   void add(std::uint32_t point) {
-    for (std::uint32_t t = 0; t < waiting_.size(); ++t)
-      if (holds(t, point)) return waiting_[t].push_back(point);
-    CHECK(false, "point {} lies in no triangle of the hull", point);
+    for (std::uint32_t t = 0; t < startOf_.size(); ++t)
+      if (holds(t, point)) return startOf_[t].push_back(point);
   }
 
   std::vector<Triangle> split() {
+    for (const std::vector<std::uint32_t>& points : startOf_) {
+      const auto first = static_cast<std::uint32_t>(waiting_.size());
+      waiting_.insert(waiting_.end(), points.begin(), points.end());
+      ranges_.push_back({first, static_cast<std::uint32_t>(waiting_.size())});
+    }
+    net_.reserve(ranges_.size() + 2 * waiting_.size());
+    ranges_.reserve(ranges_.size() + 2 * waiting_.size());
     for (std::uint32_t t = 0; t < net_.triangles().size(); ++t)
-      while (!waiting_[t].empty()) splitAt(t, takeAny(t));
+      while (ranges_[t].first != ranges_[t].last) splitAt(t, takeAny(t));
     return net_.triangles();
   }
 
  private:
+  /// Places in waiting_ from first to before last.
+  struct Range {
+    std::uint32_t first = 0, last = 0;
+  };
+
   std::int64_t side(std::uint32_t triangle, int edge, std::uint32_t point) const {
     const Triangle& t = net_.triangles()[triangle];
     return orientation(nodes_[t[edge]], nodes_[t[(edge + 1) % 3]], nodes_[point]);
@@ -38,11 +49,10 @@ class Trisector {
   }
 
   std::uint32_t takeAny(std::uint32_t triangle) {
-    std::vector<std::uint32_t>& points = waiting_[triangle];
-    std::swap(points[random_.below(points.size(), draw_++)], points.back());
-    const std::uint32_t point = points.back();
-    points.pop_back();
-    return point;
+    Range& range = ranges_[triangle];
+    --range.last;
+    std::swap(waiting_[range.first + random_.below(range.last - range.first + 1, draw_++)], waiting_[range.last]);
+    return waiting_[range.last];
   }
 
   void splitAt(std::uint32_t triangle, std::uint32_t point) {
@@ -51,68 +61,101 @@ class Trisector {
       if (side(triangle, edge, point) != 0) continue;
       const std::uint32_t other = net_.neighbours()[triangle][edge];
       net_.splitEdge(triangle, edge, point);
-      waiting_.resize(net_.triangles().size());
-      share(triangle, {triangle, firstNew});
-      if (other != noTriangle) share(other, {other, firstNew + 1});
+      ranges_.resize(net_.triangles().size());
+      share(triangle, firstNew, firstNew, point);
+      if (other != noTriangle) share(other, firstNew + 1, firstNew + 1, point);
       return;
     }
     net_.splitInside(triangle, point);
-    waiting_.resize(net_.triangles().size());
-    share(triangle, {triangle, firstNew, firstNew + 1});
+    ranges_.resize(net_.triangles().size());
+    share(triangle, firstNew, firstNew + 1, point);
   }
 
-  /// The points of what was one triangle go to the parts that hold them.
-  void share(std::uint32_t whole, const std::vector<std::uint32_t>& parts) {
-    const std::vector<std::uint32_t> points = std::move(waiting_[whole]);
-    waiting_[whole].clear();
-    for (const std::uint32_t point : points) {
-      const auto part = std::find_if(parts.begin(), parts.end(), [&](std::uint32_t t) { return holds(t, point); });
-      CHECK(part != parts.end(), "point {} was lost in a split", point);
-      waiting_[*part].push_back(point);
+  /// The points of what was one triangle go to the parts that hold them, in their old order: to `triangle` itself, and
+  /// to the new ones from `second` to `third` around their common corner `tip`. (Both new names may be one.)
+  void share(std::uint32_t triangle, std::uint32_t second, std::uint32_t third, std::uint32_t tip) {
+    const Range whole = ranges_[triangle];
+    std::uint32_t kept = whole.first;
+    moved_[0].clear();
+    moved_[1].clear();
+    for (std::uint32_t i = whole.first; i < whole.last; ++i) {
+      const std::uint32_t point = waiting_[i];
+      if (sees(triangle, tip, point))
+        waiting_[kept++] = point;
+      else
+        moved_[second == third || sees(second, tip, point) ? 0 : 1].push_back(point);
     }
+    ranges_[triangle] = {whole.first, kept};
+    ranges_[second] = append(kept, moved_[0]);
+    if (second != third) ranges_[third] = append(ranges_[second].last, moved_[1]);
+  }
+  Range append(std::uint32_t place, const std::vector<std::uint32_t>& points) {
+    std::copy(points.begin(), points.end(), waiting_.begin() + place);
+    return {place, place + static_cast<std::uint32_t>(points.size())};
+  }
+  /// Whether a point of the divided triangle lies between a part's two edges at the tip.
+  bool sees(std::uint32_t part, std::uint32_t tip, std::uint32_t point) const {
+    const Triangle& t = net_.triangles()[part];
+    const int at = t[0] == tip ? 0 : t[1] == tip ? 1 : 2;
+    return side(part, at, point) >= 0 && side(part, (at + 2) % 3, point) >= 0;
   }
 
   const std::vector<LatticePoint>& nodes_;
   TriangleNet net_;
-  std::vector<std::vector<std::uint32_t>> waiting_;  ///< points in each triangle that are no corner yet
+  std::vector<std::vector<std::uint32_t>> startOf_;  ///< points in each triangle of the start
+  std::vector<std::uint32_t> waiting_;               ///< points that are no corner yet
+  std::vector<Range> ranges_;                        ///< of each triangle in waiting_
+  std::vector<std::uint32_t> moved_[2];              ///< scratch of share
   Random random_;
   std::uint64_t draw_ = 0;
 };
 
-bool strictlyInside(const LatticePoints& points, const std::vector<std::uint32_t>& hull, std::uint32_t point) {
-  for (std::size_t i = 0; i < hull.size(); ++i)
-    if (orientation(points.nodes[hull[i]], points.nodes[hull[(i + 1) % hull.size()]], points.nodes[point]) <= 0)
+/// Whether a point lies to the left of all edges of a polygon: it sees the polygon's whole border.
+bool seesAll(const LatticePoints& points, const std::vector<std::uint32_t>& polygon, std::uint32_t point) {
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    if (orientation(points.nodes[polygon[i]], points.nodes[polygon[(i + 1) % polygon.size()]], points.nodes[point]) <=
+        0)
       return false;
   return true;
 }
 
-/// All edges of the hull seen from `apex`, which may be one of its corners.
-std::vector<Triangle> fan(const std::vector<std::uint32_t>& hull, std::uint32_t apex) {
+/// All edges of a polygon seen from `apex`, which may be one of its corners.
+std::vector<Triangle> fan(const std::vector<std::uint32_t>& polygon, std::uint32_t apex) {
   std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const std::uint32_t a = hull[i], b = hull[(i + 1) % hull.size()];
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const std::uint32_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
     if (a != apex && b != apex) triangles.push_back({apex, a, b});
   }
   return triangles;
 }
 
-/// A random point inside the hull divides it; a corner where no point is inside.
-std::uint32_t chooseApex(const LatticePoints& points, const std::vector<std::uint32_t>& hull, const Random& random) {
+/// The border alone, as if there were no points inside.
+std::vector<Triangle> triangulatedBorder(const LatticePoints& points, const std::vector<std::uint32_t>& border) {
+  LatticePoints alone{points.nodes, {}, border};
+  std::sort(alone.distinct.begin(), alone.distinct.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return points.nodes[a] < points.nodes[b]; });
+  return withinBorder(delaunay(alone), points.nodes, border);
+}
+
+std::vector<Triangle> startOf(const LatticePoints& points, const std::vector<std::uint32_t>& border,
+                              std::uint64_t seed) {
   std::vector<std::uint32_t> inside;
   for (const std::uint32_t point : points.distinct)
-    if (strictlyInside(points, hull, point)) inside.push_back(point);
-  return inside.empty() ? hull[0] : inside[random.below(inside.size(), ~std::uint64_t{0})];
+    if (seesAll(points, border, point)) inside.push_back(point);
+  if (!inside.empty())
+    return fan(border, inside[Random(seed, Stream::trisection).below(inside.size(), ~std::uint64_t{0})]);
+  return border == hullCorners(points) ? fan(border, border[0]) : triangulatedBorder(points, border);
 }
 
 }  // namespace
 
-std::vector<Triangle> trisect(const LatticePoints& points, std::uint64_t seed) {
-  const std::vector<std::uint32_t> hull = hullCorners(points);
-  const std::uint32_t apex = chooseApex(points, hull, Random(seed, Stream::trisection));
+std::vector<Triangle> trisect(const LatticePoints& points, const std::vector<std::uint32_t>& border,
+                              std::uint64_t seed) {
+  std::vector<Triangle> start = startOf(points, border, seed);
   std::vector<bool> isCorner(points.nodes.size(), false);
-  for (const std::uint32_t corner : hull) isCorner[corner] = true;
-  isCorner[apex] = true;
-  Trisector trisector(points, fan(hull, apex), seed);
+  for (const Triangle& t : start)
+    for (const std::uint32_t corner : t) isCorner[corner] = true;
+  Trisector trisector(points, std::move(start), seed);
   for (const std::uint32_t point : points.distinct)
     if (!isCorner[point]) trisector.add(point);
   return trisector.split();

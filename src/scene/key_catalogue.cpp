@@ -38,6 +38,7 @@ class Collector : public KeyVisitor {
       return node;
     });
   }
+  void places(const Key& key, std::vector<Vec2d>&) override { add(key, Type::places, nodeOf(Kind::array)); }
   void text(const Key& key, std::string& value) override { add(key, Type::text, textNode(value)); }
   void file(const Key& key, std::filesystem::path&) override { add(key, Type::file, textNode("")); }
   void choice(const Key& key, Names names, std::size_t& index) override {

@@ -8,7 +8,7 @@ namespace brisance {
 
 /// A key, or a table of keys.
 struct CatalogueEntry {
-  enum class Type { flag, integer, number, text, file, choice, table, array };
+  enum class Type { flag, integer, number, places, text, file, choice, table, array };
   Key key{"", "", anyValue, ""};
   Type type = Type::table;
   std::size_t count = 1;                                  ///< of numbers; above 1 they stand in brackets

@@ -51,6 +51,7 @@ void visit(KeyVisitor& v, const Key& key, Vec3f& value) {
 void visit(KeyVisitor& v, const Key& key, Quaternion& value) {
   visitNumbers(v, key, Precision::full, value.w, value.x, value.y, value.z);
 }
+void visit(KeyVisitor& v, const Key& key, std::vector<Vec2d>& values) { v.places(key, values); }
 void visit(KeyVisitor& v, const Key& key, std::string& value) { v.text(key, value); }
 void visit(KeyVisitor& v, const Key& key, std::filesystem::path& value) { v.file(key, value); }
 

@@ -59,6 +59,7 @@ class KeyVisitor {
   virtual void flag(const Key& key, bool& value) = 0;
   virtual void integers(const Key& key, std::span<std::int64_t> values) = 0;  ///< one: a number, several: an array
   virtual void numbers(const Key& key, std::span<double> values, Precision precision) = 0;
+  virtual void places(const Key& key, std::vector<Vec2d>& values) = 0;  ///< [[x, y], ...], as many as there are
   virtual void text(const Key& key, std::string& value) = 0;
   virtual void file(const Key& key, std::filesystem::path& value) = 0;
   virtual void choice(const Key& key, Names names, std::size_t& index) = 0;
@@ -89,6 +90,7 @@ void visit(KeyVisitor& v, const Key& key, Vec2d& value);
 void visit(KeyVisitor& v, const Key& key, Vec3d& value);
 void visit(KeyVisitor& v, const Key& key, Vec3f& value);
 void visit(KeyVisitor& v, const Key& key, Quaternion& value);  ///< w, x, y, z
+void visit(KeyVisitor& v, const Key& key, std::vector<Vec2d>& values);
 void visit(KeyVisitor& v, const Key& key, std::string& value);
 void visit(KeyVisitor& v, const Key& key, std::filesystem::path& value);
 
@@ -125,15 +127,19 @@ void visitType(KeyVisitor& v, const Key& key, Names names, std::variant<Ts...>& 
   hold(value, index);
 }
 
-/// The alternatives of the table that was entered last: its key "type", then the keys of that type.
+/// The alternatives of the table that was entered last: its key "type", then the keys of that type. A visitor that
+/// looks at several leaves the value as it was.
 template <class Describe, class... Ts>
 void visitAlternatives(KeyVisitor& v, Names names, std::variant<Ts...>& value, const Describe& describe) {
-  for (const std::size_t index : v.alternatives(names, value.index())) {
+  const std::variant<Ts...> before = value;
+  const std::vector<std::size_t> visited = v.alternatives(names, value.index());
+  for (const std::size_t index : visited) {
     hold(value, index);
     v.enterAlternative(index);
     std::visit([&](auto& settings) { describe(v, settings); }, value);
     v.leaveAlternative();
   }
+  if (visited.size() > 1) value = before;
 }
 
 template <class T, class Describe>

@@ -56,6 +56,8 @@ std::string typeText(const CatalogueEntry& entry) {
       return entry.count == 1 ? "whole number" : fmt::format("{} whole numbers", entry.count);
     case Type::number:
       return entry.count == 1 ? "number" : fmt::format("{} numbers", entry.count);
+    case Type::places:
+      return "places `[[x, y], ...]`";
     case Type::text:
       return "text";
     case Type::file:

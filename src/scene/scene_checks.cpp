@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "base/check.h"
@@ -71,16 +72,29 @@ void checkName(const std::string& name, const std::string& path, const Places& p
                   fmt::format("must be at most {} letters, digits, _ and -, got \"{}\"", longestName, quoted(name)));
 }
 
+/// Triangles that a pane has at least: points on the border add more.
+int paneTriangles(const PaneSettings& pane) {
+  const auto corners = outlineCorners(pane.outline, std::numeric_limits<double>::infinity()).size();
+  return static_cast<int>(corners) - 2 + 2 * pane.points;
+}
+
 /// Triangles of a shape where they are known before it is made; fewer pieces than that come out of it.
 int knownTriangles(const Shape& shape) {
-  constexpr int boxTriangles = 12, rectangleTriangles = 2;
-  if (const auto* pane = std::get_if<PaneSettings>(&shape)) return rectangleTriangles + 2 * pane->points;
+  constexpr int boxTriangles = 12;
+  if (const auto* pane = std::get_if<PaneSettings>(&shape)) return paneTriangles(*pane);
   if (std::holds_alternative<BoxShape>(shape)) return boxTriangles;
   return std::numeric_limits<int>::max();
 }
 
+void checkPane(const PaneSettings& pane, const std::string& path, const Places& places) {
+  if (const std::string fault = outlineFault(pane.outline); !fault.empty()) places.refuse(path + ".outline", fault);
+  if (const std::string fault = patternFault(pane.pattern, pane.outline); !fault.empty())
+    places.refuse(path + ".pattern", fault);
+}
+
 void checkBody(const BodySettings& body, const std::string& path, const Places& places) {
   checkName(body.name, path, places);
+  if (const auto* pane = std::get_if<PaneSettings>(&body.shape)) checkPane(*pane, path + ".shape", places);
   const bool rectangle = std::holds_alternative<RectangleShape>(body.shape);
   if (rectangle && body.moves) places.refuse(path + ".moves", "must be false: a rectangle is scenery");
   if (body.blocksGas && (body.moves || rectangle))

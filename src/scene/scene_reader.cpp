@@ -68,6 +68,17 @@ class Reader : public KeyVisitor {
     const double scale = isLength(key) ? metresPerUnit_ : 1;
     readArray(key, values, [&](const SceneNode& node) { return numberOf(key, node) * scale; });
   }
+  void places(const Key& key, std::vector<Vec2d>& values) override {
+    const SceneNode* node = take(key);
+    if (node == nullptr) return;
+    const double scale = isLength(key) ? metresPerUnit_ : 1;
+    if (node->kind != Kind::array) refuse(key, *node, "must be places [[x, y], ...]");
+    values.clear();
+    for (const SceneNode& place : node->children) {
+      if (place.kind != Kind::array || place.children.size() != 2) refuse(key, place, "must be places [[x, y], ...]");
+      values.push_back({numberOf(key, place.children[0]) * scale, numberOf(key, place.children[1]) * scale});
+    }
+  }
   void text(const Key& key, std::string& value) override {
     if (const SceneNode* node = take(key)) value = textOf(key, *node);
   }

@@ -38,6 +38,11 @@ Json numberSchema(const CatalogueEntry& entry) {
   return {{"type", "array"}, {"items", schema}, {"minItems", entry.count}, {"maxItems", entry.count}};
 }
 
+Json placesSchema() {
+  const Json place{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+  return {{"type", "array"}, {"items", place}};
+}
+
 Json tableSchema(const std::vector<CatalogueEntry>& keys, const Json& type);
 
 Json tableOrTypes(const CatalogueEntry& entry) {
@@ -56,6 +61,8 @@ Json schemaOf(const CatalogueEntry& entry) {
     case Type::integer:
     case Type::number:
       return numberSchema(entry);
+    case Type::places:
+      return placesSchema();
     case Type::text:
     case Type::file:
       return {{"type", "string"}, {"minLength", 1}};

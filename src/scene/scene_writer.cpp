@@ -18,6 +18,16 @@ class Writer : public KeyVisitor {
       node.singlePrecision = precision == Precision::single;
     });
   }
+  void places(const Key& key, std::vector<Vec2d>& values) override {
+    SceneNode& array = add(key.name, Kind::array);
+    for (const Vec2d& place : values) {
+      array.children.push_back(fresh("", Kind::array));
+      for (const double coordinate : {place.x, place.y}) {
+        array.children.back().children.push_back(fresh("", Kind::number));
+        array.children.back().children.back().number = coordinate;
+      }
+    }
+  }
   void text(const Key& key, std::string& value) override { add(key.name, Kind::text).text = value; }
   void file(const Key& key, std::filesystem::path& value) override {
     add(key.name, Kind::text).text = value.generic_string();

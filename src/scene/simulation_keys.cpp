@@ -10,6 +10,8 @@ constexpr std::string_view advectionNames[] = {"donor_cell"};
 constexpr std::string_view pressureNames[] = {"conjugate_gradient"};
 constexpr std::string_view quadratureNames[] = {"area_quadrature", "vertex_sum"};
 constexpr std::string_view shapeNames[] = {"sphere", "box", "rectangle", "mesh", "pane"};
+constexpr std::string_view outlineNames[] = {"rectangle", "disc", "polygon"};
+constexpr std::string_view patternNames[] = {"uniform", "blue_noise", "impact"};
 constexpr std::string_view triangulationNames[] = {"trisection", "delaunay"};
 constexpr std::string_view fractureNames[] = {"breadth_first", "breadth_first_thesis", "curvature", "spectral",
                                               "voronoi"};
@@ -135,12 +137,44 @@ struct ShapeKeys {
     visit(v, {"shell_thickness", "m", above(0), "of the wall of open pieces, for their mass"}, mesh.shellThickness);
   }
   void operator()(KeyVisitor& v, PaneSettings& pane) const {
-    visit(v, {"width", "m", above(0), "along x"}, pane.width);
-    visit(v, {"height", "m", above(0), "along y"}, pane.height);
+    v.enter({"outline", "", anyValue, "of the pane"}, true);
+    visitAlternatives(v, outlineNames, pane.outline,
+                      [](KeyVisitor& inner, auto& outline) { describeOutline(inner, outline); });
+    v.leave();
+    // A rectangle's measures stand in the shape itself; no other outline has any there.
+    if (auto* rectangle = std::get_if<RectangleOutline>(&pane.outline)) {
+      visit(v, {"width", "m", above(0), "along x, of a rectangular pane"}, rectangle->width);
+      visit(v, {"height", "m", above(0), "along y, of a rectangular pane"}, rectangle->height);
+    }
     visit(v, {"thickness", "m", above(0), "along z"}, pane.thickness);
     visit(v, {"points", "", between(0, 1e6), "inside the pane, which become corners of shards"}, pane.points);
+    v.enter({"pattern", "", anyValue, "where the points lie"}, true);
+    visitAlternatives(v, patternNames, pane.pattern,
+                      [](KeyVisitor& inner, auto& pattern) { describePattern(inner, pattern); });
+    v.leave();
     visitType(v, {"triangulation", "", anyValue, "trisection gives splinters, delaunay even shards"},
               triangulationNames, pane.triangulation);
+  }
+
+ private:
+  static void describeOutline(KeyVisitor&, RectangleOutline&) {}
+  static void describeOutline(KeyVisitor& v, DiscOutline& disc) {
+    visit(v, {"radius", "m", above(0), "of the disc"}, disc.radius);
+  }
+  static void describeOutline(KeyVisitor& v, PolygonOutline& polygon) {
+    Key corners{"corners", "m", anyValue,
+                "in order around it, either way; it may be concave, and must not touch itself"};
+    corners.required = true;
+    visit(v, corners, polygon.corners);
+  }
+  static void describePattern(KeyVisitor&, UniformPoints&) {}
+  static void describePattern(KeyVisitor&, BlueNoisePoints&) {}
+  static void describePattern(KeyVisitor& v, ImpactPoints& pattern) {
+    visit(v, {"impact", "m", anyValue, "where the pane was struck, inside the outline"}, pattern.impact);
+    visit(v, {"spokes", "", between(3, 1000), "radial cracks"}, pattern.spokes);
+    visit(v, {"finest", "m", above(0), "radius of the innermost arc of cracks; further ones lie ever farther apart"},
+          pattern.finest);
+    visit(v, {"irregularity", "", between(0, 1), "0 is a spider's web"}, pattern.irregularity);
   }
 };
 

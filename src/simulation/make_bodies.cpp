@@ -59,15 +59,22 @@ void addPiece(const BodySettings& settings, const Piece& piece, const std::strin
 }
 }  // namespace
 
+FracturedBody breakBody(const BodySettings& body, std::uint64_t seed) {
+  return std::visit([&](const auto& shape) { return breakShape(shape, body.fracture, seed); }, body.shape);
+}
+
+std::string pieceName(const std::string& body, std::size_t piece, std::size_t pieces) {
+  return pieces == 1 ? body : fmt::format("{}.{:03}", body, piece + 1);
+}
+
 std::vector<MovingSolid> makeBodies(const SimulationSettings& settings, WorldState& world) {
   std::vector<MovingSolid> solids;
   for (const BodySettings& body : settings.bodies) {
-    const FracturedBody broken =
-        std::visit([&](const auto& shape) { return breakShape(shape, body.fracture, settings.seed); }, body.shape);
+    const FracturedBody broken = breakBody(body, settings.seed);
     double volume = 0;
     for (const Piece& piece : broken.pieces) volume += piece.properties.volume;
     for (std::size_t n = 0; n < broken.pieces.size(); ++n) {
-      const std::string name = broken.pieces.size() == 1 ? body.name : fmt::format("{}.{:03}", body.name, n + 1);
+      const std::string name = pieceName(body.name, n, broken.pieces.size());
       addPiece(body, broken.pieces[n], name, massOf(broken.pieces[n], body.mass, volume), world);
       if (body.blocksGas)
         solids.push_back(

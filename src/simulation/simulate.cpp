@@ -1,6 +1,6 @@
 #include "simulation/simulate.h"
 
-#include <chrono>
+#include "base/stopwatch.h"
 
 #include "frame/gltf_export.h"
 #include "simulation/world_state.h"
@@ -43,19 +43,6 @@ void saveCheckpoint(RunDirectory& run, const World& world, std::size_t keep) {
   names.resize(names.size() > keep ? names.size() - keep : 0);
   if (!names.empty()) run.remove(names);
 }
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 void summarise(const World& world, SimulationSummary& summary) {
   const RunTotals& totals = world.totals();

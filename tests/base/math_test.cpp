@@ -82,6 +82,23 @@ TEST(PortableSinCos, IsOddAndEven) {
   }
 }
 
+TEST(PortableAtan2, AgreesWithTheLibraryInAllQuadrantsAndScales) {
+  for (int n = 0; n < samples; ++n) {
+    const double x = inRange(2 * n, -1, 1) * std::exp2(inRange(n, -60, 60)), y = inRange(2 * n + 1, -1, 1);
+    ASSERT_NEAR(portableAtan2(y, x) / std::atan2(y, x), 1, relative) << y << " " << x;
+  }
+}
+
+TEST(PortableAtan2, KnowsTheAxesAndTheDiagonals) {
+  EXPECT_EQ(portableAtan2(0, 0), 0);
+  EXPECT_EQ(portableAtan2(0, 1), 0);
+  EXPECT_EQ(portableAtan2(1, 0), pi / 2);
+  EXPECT_EQ(portableAtan2(0, -1), pi);
+  EXPECT_EQ(portableAtan2(-1, 0), -pi / 2);
+  EXPECT_EQ(portableAtan2(2, 2), pi / 4);
+  EXPECT_EQ(portableAtan2(-2, -2), -3 * pi / 4);
+}
+
 TEST(Quaternion, TurnsAsItsMatrixDoesAndBack) {
   const Random random(2, Stream::test);
   for (std::uint64_t n = 0; n < 1000; ++n) {

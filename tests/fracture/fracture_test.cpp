@@ -17,8 +17,7 @@ FractureSettings into(int pieces) {
 
 PaneSettings paneOf(int points, const Triangulation& method) {
   PaneSettings pane;
-  pane.width = 1.4;
-  pane.height = 0.9;
+  pane.outline = RectangleOutline{1.4, 0.9};
   pane.points = points;
   pane.triangulation = method;
   return pane;

@@ -109,6 +109,27 @@ TEST(SceneErrors, ASceneOrFileThatDoesNotExistIsTheUsersMistake) {
   }
 }
 
+TEST(SceneErrors, APaneThatCannotBeIsRefused) {
+  const auto refused = [](const std::string& keys, const std::string& line) {
+    expectLine("[[bodies]]\nname = 'a'\nshape = { type = 'pane', " + keys + " }\n", "s.toml:3: bodies.a.shape." + line);
+  };
+  refused("outline = { type = 'polygon', corners = [[0, 0], [1, 1]] }", "outline: must have at least 3 corners, got 2");
+  refused("outline = { type = 'polygon', corners = [[0, 0], [1, 1], [1, 0], [0, 1]] }",
+          "outline: must not cross or touch itself, its edges 1-2 and 3-4 do (corners count from 1)");
+  refused("outline = { type = 'polygon' }",
+          "outline.corners: is missing, must be given: in order around it, either way; it may be concave, and must not "
+          "touch itself");
+  refused("outline = { type = 'polygon', corners = [[0, 0], [1], [1, 0]] }",
+          "outline.corners: must be places [[x, y], ...] [m], got [1]");
+  refused("outline = { type = 'polygon', corners = 5 }", "outline.corners: must be places [[x, y], ...] [m], got 5");
+  refused("outline = { type = 'polygon', corners = [[0, 0], [nan, 0], [1, 0]] }",
+          "outline.corners: must be a number within 1e+15 [m], got nan");
+  refused("outline = 'disc', width = 2",
+          "width: unknown key; must be one of type, outline, thickness, points, pattern, triangulation");
+  refused("pattern = { type = 'impact', impact = [0.5, 0] }",
+          "pattern: impact must lie inside the outline, 0.04 m or more (twice finest) from it, got [0.5, 0]");
+}
+
 TEST(SceneErrors, ABodysMaterialMustExist) {
   expectLine("[[bodies]]\nname = 'a'\nshape = 'box'\nmaterial = 'gold'\n[[materials]]\nname = 'iron'\n",
              "s.toml:4: bodies.a.material: must name one of the materials (iron, plain), got \"gold\"");

@@ -146,6 +146,26 @@ TEST(SceneFile, EveryTableLandsInItsSettings) {
   EXPECT_EQ(std::get<SolidColour>(scene.render.materials.at("iron").diffuse).colour, Vec3f(.1f, .2f, .3f));
 }
 
+TEST(SceneFile, PanesHaveOutlinesAndPatterns) {
+  const auto paneOf = [](const std::string& shape) {
+    const std::string text = "[scene]\nmetres_per_unit = 0.5\n[[bodies]]\nname = 'a'\nshape = " + shape + "\n";
+    const Scene scene = parsed(text);
+    EXPECT_EQ(writeScene(parsed(writeScene(scene))), writeScene(scene));
+    return std::get<PaneSettings>(scene.simulation.bodies[0].shape);
+  };
+  EXPECT_EQ(paneOf("{ type = 'pane', width = 3 }").outline, Outline(RectangleOutline{1.5, 1}));
+  EXPECT_EQ(paneOf("{ type = 'pane', outline = 'disc' }").outline, Outline(DiscOutline{0.5}));
+  EXPECT_EQ(paneOf("{ type = 'pane', outline = { type = 'disc', radius = 4 } }").outline, Outline(DiscOutline{2}));
+  EXPECT_EQ(paneOf("{ type = 'pane', outline = { type = 'polygon', corners = [[0, 0], [2, 0], [0, 4.5]] } }").outline,
+            Outline(PolygonOutline{{{0, 0}, {1, 0}, {0, 2.25}}}));
+  EXPECT_EQ(paneOf("{ type = 'pane', pattern = 'blue_noise' }").pattern, PointPattern(BlueNoisePoints{}));
+  ImpactPoints blow;
+  blow.impact = {0.1, -0.2};
+  blow.spokes = 12;
+  EXPECT_EQ(paneOf("{ type = 'pane', pattern = { type = 'impact', impact = [0.2, -0.4], spokes = 12 } }").pattern,
+            PointPattern(blow));
+}
+
 TEST(SceneFile, FocalLengthAndSensorGiveTheFieldOfView) {
   const Scene scene = parsed(fullScene());
   ASSERT_EQ(scene.render.camera.keys.size(), 2u);

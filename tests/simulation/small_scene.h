@@ -32,8 +32,7 @@ inline SimulationSettings smallScene() {
   BodySettings pane;
   pane.name = "pane";
   PaneSettings glass;
-  glass.width = .3;
-  glass.height = .4;
+  glass.outline = RectangleOutline{.3, .4};
   glass.thickness = .005;
   glass.points = 60;
   pane.shape = glass;

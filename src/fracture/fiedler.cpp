@@ -1,0 +1,201 @@
+#include "fracture/fiedler.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/random.h"
+#include "fracture/lobpcg.h"
+#include "fracture/multigrid_cycle.h"
+
+namespace brisance {
+namespace {
+
+constexpr int directLimit = 100;     // nodes: a dense solution takes about a millisecond
+constexpr int coarseIterations = 4;  // what a start on the next finer level needs
+constexpr double coarseResidual = 1e-2;
+constexpr int mostIterations = 200;
+
+/// Eigenvalues closer than this, relative, are one eigenvalue of several vectors.
+double sameEigenvalue(const EigenTolerance& tolerance) { return std::min(tolerance.residual, 1e-5); }
+
+/// Some smallest pairs above 0.
+struct Eigenspace {
+  std::vector<double> values;
+  std::vector<std::vector<double>> vectors;
+  double residual = 0;
+  int iterations = 0;
+  /// How many vectors belong to the first value.
+  std::size_t multiplicity(double same) const {
+    return static_cast<std::size_t>(
+        std::count_if(values.begin(), values.end(), [&](double v) { return v - values[0] <= same * values[0]; }));
+  }
+};
+
+double edgeWeight(const FractureGraph& graph, std::uint32_t k) { return graph.weights.empty() ? 1 : graph.weights[k]; }
+
+/// |L x - lambda x| / (lambda |x|).
+double relativeResidual(const FractureGraph& graph, const std::vector<double>& x, double lambda) {
+  const auto sums = sumOverNodes<2>(x.size(), [&](std::uint32_t begin, std::uint32_t end, auto& out) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      double image = 0;
+      for (std::uint32_t k = graph.first[i]; k < graph.first[i + 1]; ++k)
+        image += edgeWeight(graph, k) * (x[i] - x[graph.targets[k]]);
+      out[0] += (image - lambda * x[i]) * (image - lambda * x[i]);
+      out[1] += x[i] * x[i];
+    }
+  });
+  return std::sqrt(sums[0] / sums[1]) / lambda;
+}
+
+Eigenspace solveDirectly(const FractureGraph& graph) {
+  const int n = graph.nodeCount();
+  Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n);
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(n); ++i)
+    for (std::uint32_t k = graph.first[i]; k < graph.first[i + 1]; ++k) {
+      laplacian(i, graph.targets[k]) -= edgeWeight(graph, k);
+      laplacian(i, i) += edgeWeight(graph, k);
+    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(laplacian);
+  Eigenspace space;
+  for (int c = 1; c < n; ++c) {
+    space.values.push_back(solver.eigenvalues()[c]);
+    const auto column = solver.eigenvectors().col(c);
+    space.vectors.emplace_back(column.begin(), column.end());
+  }
+  return space;
+}
+
+/// The start of the coarsest level that has nodes enough: its own vectors, with M-orthonormal columns.
+template <int K>
+BlockVector<K, double> coarsestVectors(const MultigridLevel& level) {
+  const std::uint32_t n = level.rows.size();
+  Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(n, n);
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t k = level.rows.first[i]; k < level.rows.first[i + 1]; ++k) {
+      const std::uint32_t j = level.rows.targets[k];
+      const double weight = level.rows.weights[k];
+      scaled(i, j) -= weight / std::sqrt(static_cast<double>(level.mass[i]) * level.mass[j]);
+      scaled(i, i) += weight / level.mass[i];
+    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+  BlockVector<K, double> x(n);
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (int c = 0; c < K; ++c)
+      x[i][c] = solver.eigenvectors()(i, 1 + c) / std::sqrt(static_cast<double>(level.mass[i]));
+  return x;
+}
+
+template <int K>
+BlockVector<K, double> anyVectors(std::size_t nodes) {
+  const Random random(0, Stream::eigenvectorStart);
+  BlockVector<K, double> x(nodes);
+  for (std::size_t i = 0; i < nodes; ++i)
+    for (int c = 0; c < K; ++c) x[i][c] = random.uniform(i * K + c) - 0.5;
+  return x;
+}
+
+template <int K>
+BlockVector<K, double> prolonged(const MultigridLevel& fine, const BlockVector<K, double>& coarse) {
+  BlockVector<K, double> x(fine.rows.size());
+  forNodes(x.size(), [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) x[i] = coarse[fine.aggregateOf[i]];
+  });
+  return x;
+}
+
+template <int K, class Weight>
+EigenReport<K> iterate(const EigenProblem<Weight>& problem, MultigridCycle<K>& cycle, std::size_t level,
+                       BlockVector<K, double>& x, double residual, int iterations) {
+  const typename Lobpcg<K, Weight>::Precondition precondition =
+      [&](const BlockVector<K, float>& b, BlockVector<K, float>& out) { cycle.apply(level, b, out); };
+  return Lobpcg<K, Weight>(problem, x, precondition).run(residual, iterations);
+}
+
+/// K pairs: all but the last to the tolerance.
+template <int K>
+Eigenspace solveByMultigrid(const FractureGraph& graph, const GraphMultigrid& grid, double residual) {
+  MultigridCycle<K> cycle(grid);
+  std::size_t level = grid.levels.size() - 1;
+  while (level > 0 && grid.levels[level].rows.size() <= K) --level;
+  BlockVector<K, double> x = grid.levels[level].rows.size() <= GraphMultigrid::coarsestSize
+                                 ? coarsestVectors<K>(grid.levels[level])
+                                 : anyVectors<K>(grid.levels[level].rows.size());
+  while (level-- > 1) {
+    const MultigridLevel& fine = grid.levels[level];
+    x = prolonged<K>(fine, x);
+    const EigenProblem<float> problem{fine.rows.first, fine.rows.targets, fine.rows.weights, fine.mass};
+    iterate<K>(problem, cycle, level, x, std::max(residual, coarseResidual), coarseIterations);
+  }
+  if (x.size() < grid.levels[0].rows.size()) x = prolonged<K>(grid.levels[0], x);
+  const EigenProblem<double> problem{graph.first, graph.targets, graph.weights, grid.levels[0].mass};
+  const EigenReport<K> report = iterate<K>(problem, cycle, 0, x, residual, mostIterations);
+  Eigenspace space{{report.eigenvalues.begin(), report.eigenvalues.end()}, {}, 0, report.iterations};
+  for (int c = 0; c < K; ++c) {
+    space.vectors.emplace_back(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) space.vectors.back()[i] = x[i][c];
+  }
+  return space;
+}
+
+/// A function without any symmetry, so that hardly any vector is orthogonal to it.
+std::vector<double> compass(const FractureGraph& graph) {
+  const auto n = static_cast<std::size_t>(graph.nodeCount());
+  std::vector<double> values(n);
+  const Random random(0, Stream::eigenvectorStart);
+  Box3 box;
+  for (const Vec3d& p : graph.places) box.include(p);
+  const double size = graph.places.empty() ? 0 : length(box.size());
+  const Vec3d slope(1, 0.618, 0.382);
+  for (std::size_t i = 0; i < n; ++i)
+    values[i] = size > 0 ? portableExp(dot(slope, graph.places[i] - box.lower) * (2 / size)) : random.uniform(i);
+  return values;
+}
+
+double product(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// The projection of the compass on the first `dimension` vectors, of unit length.
+std::vector<double> canonicalVector(const FractureGraph& graph, const Eigenspace& space, std::size_t dimension) {
+  const std::vector<double> needle = compass(graph);
+  std::vector<double> result(needle.size(), 0);
+  for (std::size_t c = 0; c < dimension; ++c) {
+    const double along = product(needle, space.vectors[c]);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] += along * space.vectors[c][i];
+  }
+  const double norm = std::sqrt(product(result, result));
+  CHECK(norm > 0, "an eigenvector without direction");
+  for (double& v : result) v /= norm;
+  return result;
+}
+
+Eigenspace eigenspace(const FractureGraph& graph, const EigenTolerance& tolerance) {
+  if (graph.nodeCount() <= directLimit) return solveDirectly(graph);
+  const GraphMultigrid grid(graph);
+  constexpr double suspicious = 1e-4;  // the third eigenvalue is known to about the tolerance only
+  Eigenspace space = solveByMultigrid<2>(graph, grid, tolerance.residual);
+  if (space.multiplicity(suspicious) == 2) space = solveByMultigrid<4>(graph, grid, tolerance.residual);
+  if (space.multiplicity(sameEigenvalue(tolerance)) == 4) space = solveByMultigrid<6>(graph, grid, tolerance.residual);
+  return space;
+}
+
+}  // namespace
+
+FiedlerVector fiedlerVector(const FractureGraph& graph, const EigenTolerance& tolerance) {
+  CHECK(graph.nodeCount() >= 2, "{} nodes", graph.nodeCount());
+  const Eigenspace space = eigenspace(graph, tolerance);
+  CHECK(space.values[0] > 0, "eigenvalue {}: the graph is not connected", space.values[0]);
+  FiedlerVector result;
+  result.eigenvalues = {0, space.values[0]};
+  if (space.values.size() > 1) result.eigenvalues.push_back(space.values[1]);
+  result.vector = canonicalVector(graph, space, space.multiplicity(sameEigenvalue(tolerance)));
+  result.residual = relativeResidual(graph, result.vector, space.values[0]);
+  result.iterations = space.iterations;
+  return result;
+}
+
+}  // namespace brisance
