@@ -56,10 +56,8 @@ void solid(benchmark::State& state, const std::string& name, long triangles, boo
   FractureSettings settings;
   settings.pieces = pieceCount;
   if (!rough) settings.method = Voronoi{};
-  const CellPartitioner breadthFirst = [](const FractureGraph& graph) {
-    return partitionBreadthFirst(graph, pieceCount);
-  };
   FracturedBody body;
+  const CellPartitioner breadthFirst = partitionBreadthFirst;
   for (auto _ : state) body = fractureSolid(mesh, settings, {breadthFirst, {}, false});
   double volume = 0, open = 0;
   for (const Piece& piece : body.pieces) {

@@ -1,19 +1,13 @@
 #include "fracture/atom_surfaces.h"
 
 #include "base/check.h"
+#include "fracture/solid_angle.h"
 
 namespace brisance {
 namespace {
 
 std::size_t slotCount(const CellComplex& complex) {
   return complex.surface.places.size() + 3 * complex.cut.points.size() + 4 * complex.meetings.size();
-}
-
-/// 4 pi around a point inside a closed surface is the sum of what its triangles cover (Van Oosterom & Strackee 1983).
-double solidAngle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const double la = length(a), lb = length(b), lc = length(c);
-  const double below = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  return 2 * std::atan2(dot(a, cross(b, c)), below);
 }
 
 }  // namespace

@@ -251,10 +251,9 @@ CellComplex cellComplex(const SolidSurface& surface, const std::vector<Vec3d>& s
   CellComplex complex{surface, CellDiagram(latticeSeeds(lattice, seeds, weights)), {}, {}, {}, {}, {}};
   complex.cut = cutSurface(complex.surface, complex.diagram, lattice);
   const CellEdges edges = cellEdges(complex.cut, complex.surface, complex.diagram);
-  for (std::uint32_t t = 0; t < edges.winding.size(); ++t) {
+  complex.overlaps = edges.deepestWinding > 1;
+  for (std::uint32_t t = 0; t < edges.winding.size(); ++t)
     if (edges.winding[t] != 0) complex.meetings.push_back(t);
-    complex.deepestWinding = std::max(complex.deepestWinding, std::abs(edges.winding[t]));
-  }
   placeVertices(complex, lattice);
   addCaps(complex, BorderFinder(complex, edges).borders());
   return complex;

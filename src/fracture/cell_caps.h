@@ -20,7 +20,7 @@ struct CellComplex {
   std::vector<Vec3d> places;            ///< [m] of all vertices, no two alike, multiples of surface.step
   std::vector<Cap> caps;
   std::vector<Triangle> capTriangles;
-  int deepestWinding = 1;  ///< above 1 where the surface crosses itself
+  bool overlaps = false;  ///< the surface crosses itself, where it was noticed
 
   std::uint32_t firstPoint() const { return static_cast<std::uint32_t>(surface.places.size()); }
   std::uint32_t firstMeeting() const { return firstPoint() + static_cast<std::uint32_t>(cut.points.size()); }

@@ -187,6 +187,19 @@ void findWinding(CellEdges& result, const CellDiagram& diagram) {
   }
 }
 
+/// 2 also where it falls below 0: there, too, the surface bounds no body.
+int deepestWinding(const CellEdges& edges) {
+  int deepest = 1;
+  for (const CellEdge& edge : edges.edges) {
+    int winding = edges.winding[edge.from];
+    for (std::uint32_t n = 0; n <= edge.count; ++n) {
+      deepest = std::max(deepest, winding < 0 ? 2 : winding);
+      if (n < edge.count) winding += edges.crossings[edge.first + n].step;
+    }
+  }
+  return deepest;
+}
+
 }  // namespace
 
 CellEdges cellEdges(const CutSurface& cut, const SolidSurface& surface, const CellDiagram& diagram) {
@@ -194,6 +207,7 @@ CellEdges cellEdges(const CutSurface& cut, const SolidSurface& surface, const Ce
   result.edges = findEdges(diagram, result.edgeOf);
   findCrossings(result, cut, surface, diagram);
   findWinding(result, diagram);
+  result.deepestWinding = deepestWinding(result);
   return result;
 }
 

@@ -24,6 +24,7 @@ struct CellEdges {
   std::vector<std::array<std::uint32_t, 4>> edgeOf;  ///< per tetrahedron and face; noEdge where a ghost is involved
   std::vector<EdgeCrossing> crossings;
   std::vector<int> winding;  ///< at the tetrahedra's meeting points
+  int deepestWinding = 1;    ///< on edges; above 1 where the surface crosses itself
   static constexpr std::uint32_t noEdge = 0xFFFFFFFFu;
 };
 

@@ -140,14 +140,17 @@ void recordCut(const Cut& cut, FracturedBody& body) {
 /// Small cells partitioned by the method; by curvature they hold together as the surface near them does.
 FracturedBody solidPieces(const TriangleMesh& mesh, const FractureSettings& fracture) {
   Cut cut;
-  const CellPartitioner partitionCells = [&](const FractureGraph& cells) {
-    cut = partitionGraph(cells, fracture);
+  const CellPartitioner partitionCells = [&](const FractureGraph& cells, int pieces) {
+    FractureSettings settings = fracture;
+    settings.pieces = pieces;
+    cut = partitionGraph(cells, settings);
     return cut.partition;
   };
   SolidFracture how{partitionCells, {}};
   if (const auto* curvature = std::get_if<Curvature>(&fracture.method))
     how.vertexStrength = strengthWithSeams(mesh, curvature->weights);
   FracturedBody body = fractureSolid(mesh, fracture, how);
+  body.solid = true;
   recordCut(cut, body);
   return body;
 }

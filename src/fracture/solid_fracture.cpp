@@ -4,8 +4,10 @@
 #include "base/parallel.h"
 #include "fracture/flat_cells.h"
 #include "fracture/piece_meshes.h"
+#include "fracture/separate_bodies.h"
 #include "fracture/solid_parts.h"
 #include "fracture/solid_seeds.h"
+#include "mesh/convex_hull.h"
 
 namespace brisance {
 namespace {
@@ -17,19 +19,26 @@ struct Cut {
   Partition pieces;
 };
 
+/// Cuts one body. Without result where the surface crosses itself so that pieces stay open.
 class SolidBreaker {
  public:
-  SolidBreaker(const SolidSurface& surface, const FractureSettings& settings, const SolidFracture& how)
-      : surface_(surface), settings_(settings), how_(how) {}
+  SolidBreaker(const SolidSurface& surface, const FractureSettings& settings, const SolidFracture& how, int pieces)
+      : surface_(surface), settings_(settings), how_(how), pieces_(pieces) {}
 
-  Cut run() {
-    if (cellsPerPiece() == 1) return cellEach();
-    Cut rough = fused();
-    return settings_.solid.flat ? flattened(rough) : std::move(rough);
+  std::optional<Cut> run() {
+    try {
+      if (pieces_ == 1) return whole();
+      if (cellsPerPiece() == 1) return cellEach();
+      Cut rough = fused();
+      return settings_.solid.flat ? flattened(rough) : std::move(rough);
+    } catch (const Open&) {
+      return std::nullopt;
+    }
   }
 
  private:
-  static constexpr int mostTries = 16;
+  static constexpr int mostTries = 8;
+  struct Open {};
 
   int cellsPerPiece() const {
     constexpr int roughCells = 24;
@@ -41,46 +50,50 @@ class SolidBreaker {
     return solidSeeds(surface_, cells ? *cells : Voronoi{}, count, settings_.seed);
   }
 
-  /// Cuts until nothing coincides and `divide` is content; `attempt` counts.
+  /// Shakes the lattice until nothing coincides. Without result if `divide` finds too few pieces.
   template <class Divide>
   std::optional<Cut> cut(const std::vector<Vec3d>& seeds, const std::vector<double>& weights, const Divide& divide) {
     for (int n = 0; n < mostTries; ++n) {
       try {
         Cut result{cellComplex(surface_, seeds, weights, settings_.seed + shake_++), {}, {}};
-        deepestWinding_ = std::max(deepestWinding_, result.complex.deepestWinding);
+        if (result.complex.overlaps) throw Open{};
         result.atoms = cellAtoms(result.complex);
         result.pieces = divide(result);
-        if (result.pieces.count < settings_.pieces) return std::nullopt;
+        if (result.pieces.count < pieces_) return std::nullopt;
         if (piecesAreManifold(result.complex, result.atoms, result.pieces)) return result;
       } catch (const Coincidence&) {
       }
     }
-    if (deepestWinding_ > 1)
-      throw InputError("solid: the mesh must not cross itself: parts of it overlap and leave pieces open");
-    checkFailed("a cut in general position", __FILE__, __LINE__, "");
+    throw Open{};
+  }
+
+  /// One cell around everything, however many parts there are.
+  Cut whole() {
+    const auto all = [](const Cut& c) { return Partition{std::vector<int>(c.atoms.atoms.size(), 0), 1}; };
+    return std::move(*cut({surface_.places.front()}, {}, all));
   }
 
   /// One cell per piece; where some are empty, more cells.
   Cut cellEach() {
     for (int extra = 0;; extra += 1 + extra) {
-      auto result =
-          cut(seeds(settings_.pieces + extra), {}, [&](const Cut& c) { return cellPieces(c.atoms, settings_.pieces); });
+      auto result = cut(seeds(pieces_ + extra), {}, [&](const Cut& c) { return cellPieces(c.atoms, pieces_); });
       if (result) return std::move(*result);
-      CHECK(extra < 100 * settings_.pieces, "{} cells yield fewer than {} pieces", extra, settings_.pieces);
+      CHECK(extra < 100 * pieces_, "{} cells yield fewer than {} pieces", extra, pieces_);
     }
   }
 
   Cut fused() {
-    auto result = cut(seeds(settings_.pieces * cellsPerPiece()), {},
-                      [&](const Cut& c) { return how_.partition(atomGraph(c.complex, c.atoms, how_.vertexStrength)); });
-    CHECK(result, "the partition has fewer than {} pieces", settings_.pieces);
+    auto result = cut(seeds(pieces_ * cellsPerPiece()), {}, [&](const Cut& c) {
+      return how_.partition(atomGraph(c.complex, c.atoms, how_.vertexStrength), pieces_);
+    });
+    CHECK(result, "the partition has fewer than {} pieces", pieces_);
     return std::move(*result);
   }
 
   /// The same pieces with flat faces; with cells of equal weight where a weighted one is empty.
   Cut flattened(const Cut& rough) {
     const FlatCells cells = flatCells(rough.atoms, rough.pieces);
-    const auto divide = [&](const Cut& c) { return cellPieces(c.atoms, settings_.pieces); };
+    const auto divide = [&](const Cut& c) { return cellPieces(c.atoms, pieces_); };
     auto result = cut(cells.seeds, cells.weights, divide);
     if (!result) result = cut(cells.seeds, {}, divide);
     return result ? std::move(*result) : cellEach();
@@ -89,16 +102,17 @@ class SolidBreaker {
   const SolidSurface& surface_;
   const FractureSettings& settings_;
   const SolidFracture& how_;
+  int pieces_;
   std::uint64_t shake_ = 0;
-  int deepestWinding_ = 1;
 };
 
 /// About its own centroid, but for rounding that keeps sums with `place` exact.
-Piece settled(TriangleMesh mesh, double step) {
+Piece settled(TriangleMesh mesh, double step, bool hull) {
   const MassProperties properties = solidProperties(mesh);
-  Piece piece{std::move(mesh), properties, onSteps(properties.centroid, step)};
+  Piece piece{std::move(mesh), properties, onSteps(properties.centroid, step), {}};
   recenter(piece.mesh, piece.place);
   piece.properties.centroid = {};
+  if (hull) piece.hull = convexHull(piece.mesh.vertices);
   return piece;
 }
 
@@ -122,25 +136,50 @@ TriangleMesh facingOutwards(TriangleMesh mesh) {
   return mesh;
 }
 
+/// Pieces of a cut, moved to their centroids.
+FracturedBody bodyOf(const TriangleMesh& mesh, const Cut& cut, double step, bool hulls) {
+  FracturedBody body;
+  std::vector<TriangleMesh> meshes = pieceMeshes(mesh, cut.complex, cut.atoms, cut.pieces);
+  body.pieces.resize(meshes.size());
+  parallelFor(0, static_cast<std::int64_t>(meshes.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t p = begin; p < end; ++p) body.pieces[p] = settled(std::move(meshes[p]), step, hulls);
+  });
+  body.bonds = bondsOf(pieceContacts(cut.atoms, cut.pieces), body.pieces);
+  return body;
+}
+
+void append(FracturedBody& all, FracturedBody part) {
+  const int shift = static_cast<int>(all.pieces.size());
+  for (Bond bond : part.bonds) {
+    bond.a += shift;
+    bond.b += shift;
+    all.bonds.push_back(bond);
+  }
+  for (Piece& piece : part.pieces) all.pieces.push_back(std::move(piece));
+}
+
+/// Bodies that overlap one another, each cut for itself.
+FracturedBody cutSeparately(const TriangleMesh& mesh, const SolidSurface& surface, const FractureSettings& settings,
+                            const SolidFracture& how) {
+  const std::vector<TriangleMesh> bodies = separateBodies(mesh, surface);
+  const std::vector<int> share = piecesOfBodies(bodies, settings.pieces);
+  FracturedBody all;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const SolidSurface own = solidSurface(bodies[b]);
+    const auto cut = bodies.size() > 1 ? SolidBreaker(own, settings, how, share[b]).run() : std::nullopt;
+    if (!cut) throw InputError("solid: the mesh must not cross itself: a part of it does, and would leave pieces open");
+    append(all, bodyOf(bodies[b], *cut, own.step, how.hulls));
+  }
+  return all;
+}
+
 }  // namespace
 
 FracturedBody fractureSolid(const TriangleMesh& input, const FractureSettings& settings, const SolidFracture& how) {
   const TriangleMesh mesh = facingOutwards(input);
   const SolidSurface surface = solidSurface(mesh);
-  FracturedBody body;
-  body.solid = true;
-  if (settings.pieces == 1) {
-    body.pieces.push_back(settled(mesh, surface.step));
-    return body;
-  }
-  const Cut cut = SolidBreaker(surface, settings, how).run();
-  std::vector<TriangleMesh> meshes = pieceMeshes(mesh, cut.complex, cut.atoms, cut.pieces);
-  body.pieces.resize(meshes.size());
-  parallelFor(0, static_cast<std::int64_t>(meshes.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t p = begin; p < end; ++p) body.pieces[p] = settled(std::move(meshes[p]), surface.step);
-  });
-  body.bonds = bondsOf(pieceContacts(cut.atoms, cut.pieces), body.pieces);
-  return body;
+  const auto cut = SolidBreaker(surface, settings, how, settings.pieces).run();
+  return cut ? bodyOf(mesh, *cut, surface.step, how.hulls) : cutSeparately(mesh, surface, settings, how);
 }
 
 }  // namespace brisance

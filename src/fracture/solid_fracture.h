@@ -8,13 +8,14 @@
 
 namespace brisance {
 
-/// Who divides a graph of small cells into settings.pieces parts.
-using CellPartitioner = std::function<Partition(const FractureGraph&)>;
+/// Divides a graph of small cells into so many connected parts.
+using CellPartitioner = std::function<Partition(const FractureGraph&, int pieces)>;
 
 struct SolidFracture {
   const CellPartitioner& partition;    ///< not asked where each piece is one cell
   std::vector<double> vertexStrength;  ///< per vertex of the mesh, above 0: faces are as strong as the surface near
                                        ///< them; empty: as large as they are
+  bool hulls = false;                  ///< build Piece::hull too
 };
 
 /// Closed, oriented pieces, each in one part, whose volumes add up to the mesh's: cells of seeded points (Voronoi),

@@ -44,7 +44,7 @@ class Hull {
         ++n;
       }
       qh_settempfree(qh, &vertices);
-      result.push_back(triangle);
+      result.push_back({triangle[0], triangle[2], triangle[1]});  // Qhull's face inwards
     }
     return result;
   }
@@ -82,7 +82,7 @@ TriangleMesh meshOf(const std::vector<Vec3d>& points, const std::vector<Triangle
   return mesh;
 }
 
-/// Six points around a place: what a single point, or a failed search, is given.
+/// The points' box: for fewer than four points, and where Qhull fails.
 TriangleMesh boxHull(const Box3& box) {
   TriangleMesh mesh;
   for (int corner = 0; corner < 8; ++corner)

@@ -32,7 +32,7 @@ FracturedBody broken(const TriangleMesh& mesh, const FractureSettings& settings)
   const CellPartitioner breadthFirst = [&](const FractureGraph& graph) {
     return partitionBreadthFirst(graph, settings.pieces);
   };
-  return fractureSolid(mesh, settings, {breadthFirst, {}});
+  return fractureSolid(mesh, settings, {breadthFirst, {}, false});
 }
 
 TEST(SolidFracture, PiecesOfAllShapesAreSolidsThatMakeUpTheWhole) {
