@@ -29,8 +29,8 @@ FractureSettings rough(int pieces, std::uint64_t seed = 1) {
 }
 
 FracturedBody broken(const TriangleMesh& mesh, const FractureSettings& settings) {
-  const CellPartitioner breadthFirst = [&](const FractureGraph& graph) {
-    return partitionBreadthFirst(graph, settings.pieces);
+  const CellPartitioner breadthFirst = [](const FractureGraph& graph, int pieces) {
+    return partitionBreadthFirst(graph, pieces);
   };
   return fractureSolid(mesh, settings, {breadthFirst, {}, false});
 }
