@@ -78,7 +78,8 @@ TEST(SceneErrors, WhatMakesNoSenseWithoutAValueIsAskedFor) {
   expectLine("[[bodies]]\nname = 'a'\nshape = { width = 1 }\n",
              "s.toml:3: bodies.a.shape.type: is missing, must be given: which kind");
   expectLine("[[bodies]]\nname = 'a'\nshape = 'mesh'\n",
-             "s.toml:3: bodies.a.shape.file: is missing, must be given: Wavefront OBJ, relative to the scene file");
+             "s.toml:3: bodies.a.shape.file: is missing, must be given: OBJ, PLY, STL or binary glTF (.glb), "
+             "relative to the scene file");
 }
 
 TEST(SceneErrors, BrokenTomlIsNamedByItsLine) {
@@ -233,10 +234,7 @@ TEST(SceneErrors, WhatAMethodCannotBreakIsRefused) {
       box + "fracture = { method = 'breadth_first_thesis', pieces = 8, solid = true }\n",
       "s.toml:4: bodies.a.fracture.method: must be another for solid pieces: breadth_first_thesis cuts triangles");
   expectLine(box + "fracture = { method = { type = 'curvature', split = 'list' }, pieces = 2 }\n",
-             "s.toml:4: bodies.a.fracture.method.split: unknown key");
-  expectLine("[[bodies]]\nname = 'a'\nshape = { type = 'mesh', file = 'house.gltf' }\n",
-             "s.toml:3: bodies.a.shape.file: must be .glb, .obj, .ply or .stl: a .gltf keeps its vertices in other "
-             "files, which a run would not hold");
+             "s.toml:4: bodies.a.fracture.method.split: unknown key; must be one of type, weights, parts, inside");
 }
 
 TEST(SceneErrors, PicturesNumbersAgree) {
