@@ -149,8 +149,7 @@ CellAtoms AtomSurfaces::atoms() {
   measureAll();
   nameAtoms(atoms);
   placeCavities(atoms);
-  for (Atom& atom : atoms.atoms)
-    atom.centroid = atom.volume > 0 ? middle_ + atom.centroid / atom.volume : middle_;
+  for (Atom& atom : atoms.atoms) atom.centroid = atom.volume > 0 ? middle_ + atom.centroid / atom.volume : middle_;
   const CutSurface& cut = complex_.cut;
   const auto atomAt = [&](std::uint32_t vertex, std::uint32_t cell) { return sheets_[sheetOf(vertex, cell)].atom; };
   for (std::uint32_t t = 0; t < cut.cellOfTriangle.size(); ++t) {

@@ -18,8 +18,8 @@ class AtomSurfaces {
   struct Sheet {
     std::uint32_t cell = noCell;
     double volume = 0;
-    Vec3d moment;         ///< volume times centroid
-    Vec3d somewhere;      ///< one of its vertices
+    Vec3d moment;     ///< volume times centroid
+    Vec3d somewhere;  ///< one of its vertices
     int atom = -1;
   };
 

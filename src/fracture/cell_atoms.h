@@ -23,8 +23,8 @@ struct Contact {
 
 struct CellAtoms {
   std::vector<Atom> atoms;
-  std::vector<int> ofTriangle;  ///< of the surface; cut: -1
-  std::vector<int> ofPolygon;   ///< CutSurface::polygons
+  std::vector<int> ofTriangle;                    ///< of the surface; cut: -1
+  std::vector<int> ofPolygon;                     ///< CutSurface::polygons
   std::vector<std::array<int, 2>> ofCapTriangle;  ///< on the low and the high cell's side
   std::vector<Contact> contacts;                  ///< rising by a, then b
 };

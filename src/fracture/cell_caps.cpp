@@ -178,7 +178,8 @@ std::vector<Triangle> fill(const CellComplex& complex, const FaceBorder& border)
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   for (auto& loop : loops)
     for (std::uint32_t& vertex : loop)
-      vertex = static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin());
+      vertex =
+          static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin());
   std::vector<Triangle> triangles = fillPolygon(flattened(complex, border, vertices), loops);
   for (Triangle& t : triangles)
     for (std::uint32_t& corner : t) corner = vertices[corner];
@@ -242,8 +243,8 @@ std::vector<WeightedSeed> latticeSeeds(const CellLattice& lattice, const std::ve
 
 }  // namespace
 
-CellComplex cellComplex(const SolidSurface& surface, const std::vector<Vec3d>& seeds, const std::vector<double>& weights,
-                        std::uint64_t shake) {
+CellComplex cellComplex(const SolidSurface& surface, const std::vector<Vec3d>& seeds,
+                        const std::vector<double>& weights, std::uint64_t shake) {
   Box3 box;
   for (const Vec3d& p : surface.places) box.include(p);
   const CellLattice lattice(box, shake);

@@ -28,7 +28,7 @@ struct CellComplex {
 
 /// Cuts along all faces between the cells of seeds. `seeds` are places [m] with weights [m2] (empty: all equal).
 /// `shake` tries another general position. Throws Coincidence where this one is not general.
-CellComplex cellComplex(const SolidSurface& surface, const std::vector<Vec3d>& seeds, const std::vector<double>& weights,
-                        std::uint64_t shake);
+CellComplex cellComplex(const SolidSurface& surface, const std::vector<Vec3d>& seeds,
+                        const std::vector<double>& weights, std::uint64_t shake);
 
 }  // namespace brisance

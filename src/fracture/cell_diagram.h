@@ -10,8 +10,6 @@ namespace brisance {
 
 constexpr std::uint32_t noCell = 0xFFFFFFFFu;
 
-
-
 class CellDiagram {
  public:
   /// Four ghost seeds are added, far enough outside that the box of the lattice lies in cells of real seeds alone.
@@ -27,7 +25,9 @@ class CellDiagram {
   }
 
   /// The power distance of a vertex from a cell's seed [vertex step x seed step], less what all cells share.
-  std::int64_t power(std::uint32_t cell, const Vec3l& vertex) const { return constant_[cell] - dot(twice_[cell], vertex); }
+  std::int64_t power(std::uint32_t cell, const Vec3l& vertex) const {
+    return constant_[cell] - dot(twice_[cell], vertex);
+  }
   /// The cell of least power distance, by walking over neighbours from any cell; noCell starts anywhere.
   std::uint32_t cellOf(const Vec3l& vertex, std::uint32_t start) const;
 

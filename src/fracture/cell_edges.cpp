@@ -47,9 +47,10 @@ std::vector<CellEdge> findEdges(const CellDiagram& diagram, std::vector<std::arr
     const std::uint32_t opposite = tetrahedra[face.tetrahedron].seeds[face.face];
     const auto& [a, b, c] = face.cells;
     const bool beyond = isPositive(orientation(place(a), place(b), place(c), place(opposite)));
-    for (const Face& side : {face, twin}) edgeOf[side.tetrahedron][side.face] = static_cast<std::uint32_t>(edges.size());
-    edges.push_back({face.cells, beyond ? twin.tetrahedron : face.tetrahedron,
-                     beyond ? face.tetrahedron : twin.tetrahedron});
+    for (const Face& side : {face, twin})
+      edgeOf[side.tetrahedron][side.face] = static_cast<std::uint32_t>(edges.size());
+    edges.push_back(
+        {face.cells, beyond ? twin.tetrahedron : face.tetrahedron, beyond ? face.tetrahedron : twin.tetrahedron});
   }
   return edges;
 }

@@ -20,11 +20,11 @@ struct EdgeCrossing {
 /// How often the surface winds about a point is 1 inside a body and 0 outside; for a surface that crosses itself also
 /// other numbers.
 struct CellEdges {
-  std::vector<CellEdge> edges;                          ///< rising by cells
-  std::vector<std::array<std::uint32_t, 4>> edgeOf;     ///< per tetrahedron and face; noEdge where a ghost is involved
+  std::vector<CellEdge> edges;                       ///< rising by cells
+  std::vector<std::array<std::uint32_t, 4>> edgeOf;  ///< per tetrahedron and face; noEdge where a ghost is involved
   std::vector<EdgeCrossing> crossings;
-  std::vector<int> winding;                             ///< at the tetrahedra's meeting points
-  int deepestWinding = 1;  ///< on edges; above 1 where the surface crosses itself
+  std::vector<int> winding;  ///< at the tetrahedra's meeting points
+  int deepestWinding = 1;    ///< on edges; above 1 where the surface crosses itself
   static constexpr std::uint32_t noEdge = 0xFFFFFFFFu;
 };
 

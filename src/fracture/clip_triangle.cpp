@@ -81,7 +81,8 @@ void TriangleClipper::clipToCell(ClippedTriangle& polygon, const std::array<Vec3
   for (int corner = 0; corner < 3; ++corner) here[corner] = diagram_.power(polygon.cell, corners[corner]);
   for (const std::uint32_t other : diagram_.neighbours(polygon.cell)) {
     ClipSide plane{other, 0, {}};
-    for (int corner = 0; corner < 3; ++corner) plane.row[corner] = diagram_.power(other, corners[corner]) - here[corner];
+    for (int corner = 0; corner < 3; ++corner)
+      plane.row[corner] = diagram_.power(other, corners[corner]) - here[corner];
     if (plane.row.x <= 0 || plane.row.y <= 0 || plane.row.z <= 0) cutOff(polygon, plane);
   }
 }

@@ -238,8 +238,7 @@ class PieceBuilder {
     if (!isNew) return place->second;
     if (!all_.attributes) return place->second = addVertex(all_.complex.places[vertex], {}, {});
     const Vec3d normal = capNormal(all_.complex.caps[cap]) * (turned ? -1.0 : 1.0);
-    return place->second =
-               addVertex(all_.complex.places[vertex], normal, flatUv(all_.complex.places[vertex], normal));
+    return place->second = addVertex(all_.complex.places[vertex], normal, flatUv(all_.complex.places[vertex], normal));
   }
 
   void addCapTriangle(std::uint32_t t, bool turned) {
@@ -304,7 +303,8 @@ bool piecesAreManifold(const CellComplex& complex, const CellAtoms& atoms, const
     return a.piece == b.piece && a.low == b.low && a.high == b.high;
   };
   for (std::size_t n = 0; n < edges.size(); n += 2) {
-    if (n + 1 == edges.size() || !sameLine(edges[n], edges[n + 1]) || edges[n].rising == edges[n + 1].rising) return false;
+    if (n + 1 == edges.size() || !sameLine(edges[n], edges[n + 1]) || edges[n].rising == edges[n + 1].rising)
+      return false;
     if (n + 2 < edges.size() && sameLine(edges[n], edges[n + 2])) return false;
   }
   return true;

@@ -95,7 +95,8 @@ class Triangulator {
     for (std::size_t next = 0; next < cavity_.size(); ++next)
       for (int face = 0; face < 4; ++face) {
         const std::uint32_t other = tetrahedra_[cavity_[next]].neighbours[face];
-        if (other != noTetrahedron && !alive_[other]) continue;  // in the cavity: the dead of earlier seeds touch nobody
+        if (other != noTetrahedron && !alive_[other])
+          continue;  // in the cavity: the dead of earlier seeds touch nobody
         if (other != noTetrahedron && conflicts(tetrahedra_[other], seed)) {
           alive_[other] = false;
           cavity_.push_back(other);
@@ -136,7 +137,7 @@ class Triangulator {
 
   void joinTwins() {
     std::sort(open_.begin(), open_.end(), [](const OpenFace& a, const OpenFace& b) {
-      return a.low != b.low    ? a.low < b.low
+      return a.low != b.low     ? a.low < b.low
              : a.high != b.high ? a.high < b.high
                                 : a.side.tetrahedron < b.side.tetrahedron;
     });

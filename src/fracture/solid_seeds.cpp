@@ -1,20 +1,19 @@
 #include "fracture/solid_seeds.h"
 
-#include <limits>
-
 #include "base/check.h"
 #include "base/random.h"
+#include "fracture/cell_seeds.h"
 
 namespace brisance {
 namespace {
 
-/// The parts of lines along z that lie inside a body: one line at a random place in each square of a lattice in x and y.
+/// The parts of lines along z that lie inside a body: one line at a random place in each square of a lattice in x and
+/// y.
 class InsideLines {
  public:
   InsideLines(const SolidSurface& surface, int side, const Random& random) : side_(side), surface_(surface) {
     for (const Vec3d& p : surface.places) box_.include(p);
-    for (int n = 0; n < side * side; ++n)
-      lines_.push_back({{random.uniform(2 * n), random.uniform(2 * n + 1)}, {}});
+    for (int n = 0; n < side * side; ++n) lines_.push_back({{random.uniform(2 * n), random.uniform(2 * n + 1)}, {}});
     for (const Triangle& t : surface.triangles) cross(t);
     collect();
   }
@@ -22,21 +21,22 @@ class InsideLines {
   double length() const { return ends_.empty() ? 0 : ends_.back(); }
   /// The point at a given length along all stretches, one after the other.
   Vec3d at(double along) const {
-    const auto stretch = static_cast<std::size_t>(
-        std::min(std::upper_bound(ends_.begin(), ends_.end(), along) - ends_.begin(),
-                 static_cast<std::ptrdiff_t>(ends_.size()) - 1));
+    const auto stretch =
+        static_cast<std::size_t>(std::min(std::upper_bound(ends_.begin(), ends_.end(), along) - ends_.begin(),
+                                          static_cast<std::ptrdiff_t>(ends_.size()) - 1));
     const auto& [place, top] = stretches_[stretch];
     return {place.x, place.y, top - (ends_[stretch] - along)};
   }
 
  private:
   struct Line {
-    Vec2d offset;  ///< in its square, 0 to 1
+    Vec2d offset;                                   ///< in its square, 0 to 1
     std::vector<std::pair<double, int>> crossings;  ///< z, and +1 where it enters
   };
   Vec2d place(int i, int j) const {
     const Vec2d& offset = lines_[j * side_ + i].offset;
-    return {box_.lower.x + box_.size().x * (i + offset.x) / side_, box_.lower.y + box_.size().y * (j + offset.y) / side_};
+    return {box_.lower.x + box_.size().x * (i + offset.x) / side_,
+            box_.lower.y + box_.size().y * (j + offset.y) / side_};
   }
   int square(double x, int axis) const {
     const double share = (x - box_.lower[axis]) / box_.size()[axis];
@@ -52,7 +52,9 @@ class InsideLines {
   }
   void crossAt(const Vec3d& a, const Vec3d& b, const Vec3d& c, int i, int j) {
     const Vec2d p = place(i, j);
-    const auto turn = [&](const Vec3d& u, const Vec3d& v) { return (u.x - p.x) * (v.y - p.y) - (u.y - p.y) * (v.x - p.x); };
+    const auto turn = [&](const Vec3d& u, const Vec3d& v) {
+      return (u.x - p.x) * (v.y - p.y) - (u.y - p.y) * (v.x - p.x);
+    };
     const double wa = turn(b, c), wb = turn(c, a), wc = turn(a, b), sum = wa + wb + wc;
     const bool inside = (wa >= 0 && wb >= 0 && wc >= 0) || (wa <= 0 && wb <= 0 && wc <= 0);
     if (!inside || sum == 0) return;
@@ -78,56 +80,24 @@ class InsideLines {
   const SolidSurface& surface_;
   Box3 box_;
   std::vector<Line> lines_;
-  std::vector<double> ends_;                          ///< running sum of lengths
+  std::vector<double> ends_;                         ///< running sum of lengths
   std::vector<std::pair<Vec2d, double>> stretches_;  ///< place and upper end
 };
-
-/// How much likelier a seed is beside the impact than far away, relative to the most; `reach` is half the body's size.
-double density(const Voronoi& cells, const Vec3d& place, double reach) {
-  if (!cells.impact) return 1;
-  const double distance = length(place - *cells.impact) / reach;
-  return portableExp(-1.5 * cells.crowding * portableLog(1 + 2 * distance));
-}
-
-/// Of several candidates the one furthest from all seeds so far (Mitchell 1991), measured in the spacing wanted there.
-Vec3d bestOf(const std::vector<std::pair<Vec3d, double>>& candidates, const std::vector<Vec3d>& seeds) {
-  double best = -1;
-  Vec3d result;
-  for (const auto& [place, density] : candidates) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Vec3d& other : seeds) nearest = std::min(nearest, dot(other - place, other - place));
-    const double spacings = nearest * std::cbrt(density * density);
-    if (spacings <= best) continue;
-    best = spacings;
-    result = place;
-  }
-  return result;
-}
 
 }  // namespace
 
 std::vector<Vec3d> solidSeeds(const SolidSurface& surface, const Voronoi& cells, int count, std::uint64_t seed) {
-  constexpr int leastSide = 48, candidateCount = 5, mostTries = 64;
+  constexpr int leastSide = 48, leastPlaces = 4096, placesPerSeed = 16;
   const int side = std::max(leastSide, static_cast<int>(std::sqrt(4.0 * count)));
-  const Random random(seed, Stream::fractureSeed);
+  const Random random(seed, Stream::solidCells);
   const InsideLines lines(surface, side, random);
-  if (!(lines.length() > 0)) throw InputError("solid: the mesh must enclose a volume, and its triangles face outwards");
-  Box3 box;
-  for (const Vec3d& p : surface.places) box.include(p);
-  const double reach = length(box.size()) / 2;
+  if (!(lines.length() > 0)) throw InputError("solid: the mesh must enclose a volume");
   std::uint64_t draw = 2 * static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+  std::vector<Vec3d> places;
+  for (int n = 0; n < std::max(leastPlaces, placesPerSeed * count); ++n)
+    places.push_back(lines.at(random.uniform(draw++) * lines.length()));
   std::vector<Vec3d> seeds;
-  std::vector<std::pair<Vec3d, double>> candidates;
-  while (static_cast<int>(seeds.size()) < count) {
-    candidates.clear();
-    for (int tries = 0; tries < candidateCount * mostTries && candidates.size() < candidateCount; ++tries, draw += 2) {
-      const Vec3d place = lines.at(random.uniform(draw) * lines.length());
-      const double wanted = density(cells, place, reach);
-      if (random.uniform(draw + 1) < wanted) candidates.push_back({place, wanted});
-    }
-    if (candidates.empty()) candidates.push_back({lines.at(random.uniform(draw++) * lines.length()), 1.0});
-    seeds.push_back(bestOf(candidates, seeds));
-  }
+  for (const std::uint32_t chosen : crowdedPoints(places, {}, count, cells, seed)) seeds.push_back(places[chosen]);
   return seeds;
 }
 

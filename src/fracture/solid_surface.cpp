@@ -37,7 +37,8 @@ struct EdgeUse {
   bool rising;
 };
 
-/// Joins the corners of triangles that lie on both sides of an edge; a slot also names the corner where its edge starts.
+/// Joins the corners of triangles that lie on both sides of an edge; a slot also names the corner where its edge
+/// starts.
 class Fans {
  public:
   Fans(const std::vector<Triangle>& triangles, std::size_t vertexCount)
@@ -72,9 +73,10 @@ class Fans {
       const auto next = std::find_if(group, end, [&](const EdgeUse& use) { return use.high != group->high; });
       const auto rising = std::find_if(group, next, [](const EdgeUse& use) { return use.rising; });
       if (rising - group != next - rising)
-        throw InputError(fmt::format("solid: triangle {}: the mesh must be closed and oriented, but an edge has no "
-                                     "counterpart",
-                                     group->slot / 3));
+        throw InputError(
+            fmt::format("solid: triangle {}: the mesh must be closed and oriented, but an edge has no "
+                        "counterpart",
+                        group->slot / 3));
       for (auto up = rising, down = group; up != next; ++up, ++down) joinAcross(up->slot, down->slot);
       group = next;
     }

@@ -31,13 +31,13 @@ struct CapSegment {
 };
 
 struct CutSurface {
-  std::vector<Vec3l> lattice;                  ///< vertices of the surface
-  std::vector<std::uint32_t> cellOfVertex;     ///< of the surface
-  std::vector<std::uint32_t> cellOfTriangle;   ///< noCell: cut
-  std::vector<CutPoint> points;                ///< rising; their vertex numbers follow those of the surface
-  std::vector<CutPolygon> polygons;            ///< of cut triangles
+  std::vector<Vec3l> lattice;                 ///< vertices of the surface
+  std::vector<std::uint32_t> cellOfVertex;    ///< of the surface
+  std::vector<std::uint32_t> cellOfTriangle;  ///< noCell: cut
+  std::vector<CutPoint> points;               ///< rising; their vertex numbers follow those of the surface
+  std::vector<CutPolygon> polygons;           ///< of cut triangles
   std::vector<std::uint32_t> corners;
-  std::vector<CapSegment> segments;            ///< rising
+  std::vector<CapSegment> segments;  ///< rising
 };
 
 CutSurface cutSurface(const SolidSurface& surface, const CellDiagram& diagram, const CellLattice& lattice);
