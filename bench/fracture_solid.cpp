@@ -4,7 +4,6 @@
 
 #include "assets/sample_meshes.h"
 #include "base/parallel.h"
-#include "fracture/breadth_first.h"
 #include "fracture/solid_fracture.h"
 
 namespace brisance {
@@ -57,8 +56,7 @@ void solid(benchmark::State& state, const std::string& name, long triangles, boo
   settings.pieces = pieceCount;
   if (!rough) settings.method = Voronoi{};
   FracturedBody body;
-  const CellPartitioner breadthFirst = partitionBreadthFirst;
-  for (auto _ : state) body = fractureSolid(mesh, settings, {breadthFirst, {}, false});
+  for (auto _ : state) body = fractureSolid(mesh, settings);
   double volume = 0, open = 0;
   for (const Piece& piece : body.pieces) {
     volume += volumeOf(piece.mesh);
@@ -76,9 +74,8 @@ const bool registered = [] {
     for (const auto& [size, triangles] :
          {std::pair("10k", 10000L), std::pair("100k", 100000L), std::pair("1M", 1000000L)})
       for (const bool rough : {false, true})
-        benchmark::RegisterBenchmark(
-            ("Solid100/" + name + "/" + size + "/Brisance" + (rough ? "_rough" : "")).c_str(),
-            [=](benchmark::State& state) { solid(state, name, triangles, rough); })
+        benchmark::RegisterBenchmark(("Solid100/" + name + "/" + size + "/Brisance" + (rough ? "_rough" : "")).c_str(),
+                                     [=](benchmark::State& state) { solid(state, name, triangles, rough); })
             ->Unit(benchmark::kMillisecond)
             ->UseRealTime();
   return true;

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "base/check.h"
-#include "fracture/curvature.h"
 #include "fracture/partition.h"
 #include "fracture/solid_fracture.h"
 #include "mesh/extrusion.h"
@@ -123,36 +122,10 @@ Piece wholePiece(TriangleMesh mesh, double shellThickness) {
   return settled(std::move(mesh), properties);
 }
 
-/// Vertices that lie at one place, doubled for their normals or uvs, are one vertex of the surface.
-std::vector<double> strengthWithSeams(const TriangleMesh& mesh, CurvatureWeights weights) {
-  std::vector<double> strength = vertexStrength(welded(mesh), weights);
-  const std::vector<std::uint32_t> first = samePlaces(mesh.vertices);
-  for (std::size_t v = 0; v < strength.size(); ++v) strength[v] = strength[first[v]];
-  return strength;
-}
-
 void recordCut(const Cut& cut, FracturedBody& body) {
   body.eigenvalues = cut.eigenvalues;
   body.graphSeconds = cut.graphSeconds;
   body.partitionSeconds = cut.partitionSeconds;
-}
-
-/// Small cells partitioned by the method; by curvature they hold together as the surface near them does.
-FracturedBody solidPieces(const TriangleMesh& mesh, const FractureSettings& fracture) {
-  Cut cut;
-  const CellPartitioner partitionCells = [&](const FractureGraph& cells, int pieces) {
-    FractureSettings settings = fracture;
-    settings.pieces = pieces;
-    cut = partitionGraph(cells, settings);
-    return cut.partition;
-  };
-  SolidFracture how{partitionCells, {}};
-  if (const auto* curvature = std::get_if<Curvature>(&fracture.method))
-    how.vertexStrength = strengthWithSeams(mesh, curvature->weights);
-  FracturedBody body = fractureSolid(mesh, fracture, how);
-  body.solid = true;
-  recordCut(cut, body);
-  return body;
 }
 
 }  // namespace
@@ -188,7 +161,7 @@ FracturedBody fracturePane(const PaneSettings& pane, const FractureSettings& fra
 }
 
 FracturedBody fractureMesh(const TriangleMesh& mesh, const FractureSettings& fracture, double shellThickness) {
-  if (fracture.solid.enabled) return solidPieces(mesh, fracture);
+  if (fracture.solid.enabled) return fractureSolid(mesh, fracture);
   FracturedBody body;
   if (fracture.pieces == 1) {
     body.pieces.push_back(wholePiece(mesh, shellThickness));

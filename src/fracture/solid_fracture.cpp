@@ -2,34 +2,46 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "fracture/curvature.h"
 #include "fracture/flat_cells.h"
+#include "fracture/partition.h"
 #include "fracture/piece_meshes.h"
 #include "fracture/separate_bodies.h"
 #include "fracture/solid_parts.h"
 #include "fracture/solid_seeds.h"
 #include "mesh/convex_hull.h"
+#include "mesh/mesh_topology.h"
 
 namespace brisance {
 namespace {
 
 /// A body in cells, and which of them make a piece.
-struct Cut {
+struct SolidCut {
   CellComplex complex;
   CellAtoms atoms;
   Partition pieces;
+  std::vector<double> eigenvalues;  ///< of a spectral partition
 };
+
+/// Vertices that lie at one place, doubled for their normals or uvs, are one vertex of the surface.
+std::vector<double> strengthWithSeams(const TriangleMesh& mesh, CurvatureWeights weights) {
+  std::vector<double> strength = vertexStrength(welded(mesh), weights);
+  const std::vector<std::uint32_t> first = samePlaces(mesh.vertices);
+  for (std::size_t v = 0; v < strength.size(); ++v) strength[v] = strength[first[v]];
+  return strength;
+}
 
 /// Cuts one body. Without result where the surface crosses itself so that pieces stay open.
 class SolidBreaker {
  public:
-  SolidBreaker(const SolidSurface& surface, const FractureSettings& settings, const SolidFracture& how, int pieces)
-      : surface_(surface), settings_(settings), how_(how), pieces_(pieces) {}
+  SolidBreaker(const TriangleMesh& mesh, const SolidSurface& surface, FractureSettings settings)
+      : mesh_(mesh), surface_(surface), settings_(std::move(settings)), pieces_(settings_.pieces) {}
 
-  std::optional<Cut> run() {
+  std::optional<SolidCut> run() {
     try {
       if (pieces_ == 1) return whole();
       if (cellsPerPiece() == 1) return cellEach();
-      Cut rough = fused();
+      SolidCut rough = fused();
       return settings_.solid.flat ? flattened(rough) : std::move(rough);
     } catch (const Open&) {
       return std::nullopt;
@@ -52,10 +64,11 @@ class SolidBreaker {
 
   /// Shakes the lattice until nothing coincides. Without result if `divide` finds too few pieces.
   template <class Divide>
-  std::optional<Cut> cut(const std::vector<Vec3d>& seeds, const std::vector<double>& weights, const Divide& divide) {
+  std::optional<SolidCut> cut(const std::vector<Vec3d>& seeds, const std::vector<double>& weights,
+                              const Divide& divide) {
     for (int n = 0; n < mostTries; ++n) {
       try {
-        Cut result{cellComplex(surface_, seeds, weights, settings_.seed + shake_++), {}, {}};
+        SolidCut result{cellComplex(surface_, seeds, weights, settings_.seed + shake_++), {}, {}, {}};
         if (result.complex.overlaps) throw Open{};
         result.atoms = cellAtoms(result.complex);
         result.pieces = divide(result);
@@ -68,51 +81,56 @@ class SolidBreaker {
   }
 
   /// One cell around everything, however many parts there are.
-  Cut whole() {
-    const auto all = [](const Cut& c) { return Partition{std::vector<int>(c.atoms.atoms.size(), 0), 1}; };
+  SolidCut whole() {
+    const auto all = [](const SolidCut& c) { return Partition{std::vector<int>(c.atoms.atoms.size(), 0), 1}; };
     return std::move(*cut({surface_.places.front()}, {}, all));
   }
 
   /// One cell per piece; where some are empty, more cells.
-  Cut cellEach() {
+  SolidCut cellEach() {
     for (int extra = 0;; extra += 1 + extra) {
-      auto result = cut(seeds(pieces_ + extra), {}, [&](const Cut& c) { return cellPieces(c.atoms, pieces_); });
+      auto result = cut(seeds(pieces_ + extra), {}, [&](const SolidCut& c) { return cellPieces(c.atoms, pieces_); });
       if (result) return std::move(*result);
       CHECK(extra < 100 * pieces_, "{} cells yield fewer than {} pieces", extra, pieces_);
     }
   }
 
-  Cut fused() {
-    auto result = cut(seeds(pieces_ * cellsPerPiece()), {}, [&](const Cut& c) {
-      return how_.partition(atomGraph(c.complex, c.atoms, how_.vertexStrength), pieces_);
+  SolidCut fused() {
+    std::vector<double> strength;
+    if (const Curvature* curvature = std::get_if<Curvature>(&settings_.method))
+      strength = strengthWithSeams(mesh_, curvature->weights);
+    auto result = cut(seeds(pieces_ * cellsPerPiece()), {}, [&](SolidCut& c) {
+      auto parts = partitionGraph(atomGraph(c.complex, c.atoms, strength), settings_);
+      c.eigenvalues = std::move(parts.eigenvalues);
+      return std::move(parts.partition);
     });
     CHECK(result, "the partition has fewer than {} pieces", pieces_);
     return std::move(*result);
   }
 
   /// The same pieces with flat faces; with cells of equal weight where a weighted one is empty.
-  Cut flattened(const Cut& rough) {
+  SolidCut flattened(const SolidCut& rough) {
     const FlatCells cells = flatCells(rough.atoms, rough.pieces);
-    const auto divide = [&](const Cut& c) { return cellPieces(c.atoms, pieces_); };
+    const auto divide = [&](const SolidCut& c) { return cellPieces(c.atoms, pieces_); };
     auto result = cut(cells.seeds, cells.weights, divide);
     if (!result) result = cut(cells.seeds, {}, divide);
     return result ? std::move(*result) : cellEach();
   }
 
+  const TriangleMesh& mesh_;
   const SolidSurface& surface_;
-  const FractureSettings& settings_;
-  const SolidFracture& how_;
+  FractureSettings settings_;
   int pieces_;
   std::uint64_t shake_ = 0;
 };
 
 /// About its own centroid, but for rounding that keeps sums with `place` exact.
-Piece settled(TriangleMesh mesh, double step, bool hull) {
+Piece settled(TriangleMesh mesh, double step, Hulls hulls) {
   const MassProperties properties = solidProperties(mesh);
   Piece piece{std::move(mesh), properties, onSteps(properties.centroid, step), {}};
   recenter(piece.mesh, piece.place);
   piece.properties.centroid = {};
-  if (hull) piece.hull = convexHull(piece.mesh.vertices);
+  if (hulls == Hulls::build) piece.hull = convexHull(piece.mesh.vertices);
   return piece;
 }
 
@@ -137,8 +155,10 @@ TriangleMesh facingOutwards(TriangleMesh mesh) {
 }
 
 /// Pieces of a cut, moved to their centroids.
-FracturedBody bodyOf(const TriangleMesh& mesh, const Cut& cut, double step, bool hulls) {
+FracturedBody bodyOf(const TriangleMesh& mesh, const SolidCut& cut, double step, Hulls hulls) {
   FracturedBody body;
+  body.solid = true;
+  body.eigenvalues = cut.eigenvalues;
   std::vector<TriangleMesh> meshes = pieceMeshes(mesh, cut.complex, cut.atoms, cut.pieces);
   body.pieces.resize(meshes.size());
   parallelFor(0, static_cast<std::int64_t>(meshes.size()), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -160,26 +180,29 @@ void append(FracturedBody& all, FracturedBody part) {
 
 /// Bodies that overlap one another, each cut for itself.
 FracturedBody cutSeparately(const TriangleMesh& mesh, const SolidSurface& surface, const FractureSettings& settings,
-                            const SolidFracture& how) {
+                            Hulls hulls) {
   const std::vector<TriangleMesh> bodies = separateBodies(mesh, surface);
   const std::vector<int> share = piecesOfBodies(bodies, settings.pieces);
   FracturedBody all;
+  all.solid = true;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const SolidSurface own = solidSurface(bodies[b]);
-    const auto cut = bodies.size() > 1 ? SolidBreaker(own, settings, how, share[b]).run() : std::nullopt;
+    FractureSettings ownSettings = settings;
+    ownSettings.pieces = share[b];
+    const auto cut = bodies.size() > 1 ? SolidBreaker(bodies[b], own, ownSettings).run() : std::nullopt;
     if (!cut) throw InputError("solid: the mesh must not cross itself: a part of it does, and would leave pieces open");
-    append(all, bodyOf(bodies[b], *cut, own.step, how.hulls));
+    append(all, bodyOf(bodies[b], *cut, own.step, hulls));
   }
   return all;
 }
 
 }  // namespace
 
-FracturedBody fractureSolid(const TriangleMesh& input, const FractureSettings& settings, const SolidFracture& how) {
+FracturedBody fractureSolid(const TriangleMesh& input, const FractureSettings& settings, Hulls hulls) {
   const TriangleMesh mesh = facingOutwards(input);
   const SolidSurface surface = solidSurface(mesh);
-  const auto cut = SolidBreaker(surface, settings, how, settings.pieces).run();
-  return cut ? bodyOf(mesh, *cut, surface.step, how.hulls) : cutSeparately(mesh, surface, settings, how);
+  const auto cut = SolidBreaker(mesh, surface, settings).run();
+  return cut ? bodyOf(mesh, *cut, surface.step, hulls) : cutSeparately(mesh, surface, settings, hulls);
 }
 
 }  // namespace brisance

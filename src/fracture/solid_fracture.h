@@ -1,28 +1,23 @@
 // A closed mesh broken into solid pieces.
 #pragma once
 
-#include <functional>
-
 #include "fracture/fracture.h"
-#include "fracture/fracture_graph.h"
 
 namespace brisance {
 
-/// Divides a graph of small cells into so many connected parts.
-using CellPartitioner = std::function<Partition(const FractureGraph&, int pieces)>;
+/// Whether pieces get their convex hulls too.
+enum class Hulls { none, build };
 
-struct SolidFracture {
-  const CellPartitioner& partition;    ///< not asked where each piece is one cell
-  std::vector<double> vertexStrength;  ///< per vertex of the mesh, above 0: faces are as strong as the surface near
-                                       ///< them; empty: as large as they are
-  bool hulls = false;                  ///< build Piece::hull too
-};
-
-/// Closed, oriented pieces, each in one part, whose volumes add up to the mesh's: cells of seeded points (Voronoi),
-/// small cells fused as `partition` says, or the flat cells nearest to that. Exactly settings.pieces, unless the body
-/// has more parts than that. Vertices of pieces are exact: piece.place + vertex is the same for both pieces that share
-/// an inside face, whose triangles are the same with their sense reversed. Inside faces have the material "inside".
-/// Throws InputError if the mesh is not closed and oriented, or crosses itself in a way that leaves a piece open.
-FracturedBody fractureSolid(const TriangleMesh& mesh, const FractureSettings& settings, const SolidFracture& how);
+/// Closed, oriented pieces, each in one part, whose volumes add up to the mesh's. Voronoi: the cells of seeded points;
+/// every other method divides the graph of many small cells (solid.cellsPerPiece for each piece), whose faces are as
+/// strong as they are large (`curvature`: times the strength of the surface near them), and fuses each part;
+/// solid.flat replaces the rough faces by planes through their middles. Exactly settings.pieces, unless the body has
+/// more parts than that (1: the body as it is). Bodies that overlap one another are cut one by one.
+///
+/// piece.place + vertex is exact: the same for both pieces that share an inside face, whose triangles are the same with
+/// their sense reversed, and different for vertices that are not one. Inside faces have the material "inside", outside
+/// ones all that the mesh carries. Throws InputError if the mesh is not closed and oriented, encloses nothing, or one
+/// body crosses itself so that a piece would stay open.
+FracturedBody fractureSolid(const TriangleMesh& mesh, const FractureSettings& settings, Hulls hulls = Hulls::none);
 
 }  // namespace brisance

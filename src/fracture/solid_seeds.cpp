@@ -1,9 +1,8 @@
 #include "fracture/solid_seeds.h"
 
-#include <limits>
-
 #include "base/check.h"
 #include "base/random.h"
+#include "fracture/cell_seeds.h"
 
 namespace brisance {
 namespace {
@@ -85,52 +84,20 @@ class InsideLines {
   std::vector<std::pair<Vec2d, double>> stretches_;  ///< place and upper end
 };
 
-/// How much likelier a seed is beside the impact than far away, relative to the most; `reach` is half the body's size.
-double density(const Voronoi& cells, const Vec3d& place, double reach) {
-  if (!cells.impact) return 1;
-  const double distance = length(place - *cells.impact) / reach;
-  return portableExp(-1.5 * cells.crowding * portableLog(1 + 2 * distance));
-}
-
-/// Of several candidates the one furthest from all seeds so far (Mitchell 1991), measured in the spacing wanted there.
-Vec3d bestOf(const std::vector<std::pair<Vec3d, double>>& candidates, const std::vector<Vec3d>& seeds) {
-  double best = -1;
-  Vec3d result;
-  for (const auto& [place, density] : candidates) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Vec3d& other : seeds) nearest = std::min(nearest, dot(other - place, other - place));
-    const double spacings = nearest * std::cbrt(density * density);
-    if (spacings <= best) continue;
-    best = spacings;
-    result = place;
-  }
-  return result;
-}
-
 }  // namespace
 
 std::vector<Vec3d> solidSeeds(const SolidSurface& surface, const Voronoi& cells, int count, std::uint64_t seed) {
-  constexpr int leastSide = 48, candidateCount = 5, mostTries = 64;
+  constexpr int leastSide = 48, leastPlaces = 4096, placesPerSeed = 16;
   const int side = std::max(leastSide, static_cast<int>(std::sqrt(4.0 * count)));
-  const Random random(seed, Stream::fractureSeed);
+  const Random random(seed, Stream::solidCells);
   const InsideLines lines(surface, side, random);
-  if (!(lines.length() > 0)) throw InputError("solid: the mesh must enclose a volume, and its triangles face outwards");
-  Box3 box;
-  for (const Vec3d& p : surface.places) box.include(p);
-  const double reach = length(box.size()) / 2;
+  if (!(lines.length() > 0)) throw InputError("solid: the mesh must enclose a volume");
   std::uint64_t draw = 2 * static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+  std::vector<Vec3d> places;
+  for (int n = 0; n < std::max(leastPlaces, placesPerSeed * count); ++n)
+    places.push_back(lines.at(random.uniform(draw++) * lines.length()));
   std::vector<Vec3d> seeds;
-  std::vector<std::pair<Vec3d, double>> candidates;
-  while (static_cast<int>(seeds.size()) < count) {
-    candidates.clear();
-    for (int tries = 0; tries < candidateCount * mostTries && candidates.size() < candidateCount; ++tries, draw += 2) {
-      const Vec3d place = lines.at(random.uniform(draw) * lines.length());
-      const double wanted = density(cells, place, reach);
-      if (random.uniform(draw + 1) < wanted) candidates.push_back({place, wanted});
-    }
-    if (candidates.empty()) candidates.push_back({lines.at(random.uniform(draw++) * lines.length()), 1.0});
-    seeds.push_back(bestOf(candidates, seeds));
-  }
+  for (const std::uint32_t chosen : crowdedPoints(places, {}, count, cells, seed)) seeds.push_back(places[chosen]);
   return seeds;
 }
 

@@ -40,12 +40,14 @@ class RingMaker {
 
   double area(const std::vector<std::uint32_t>& loop) const {
     double sum = 0;
-    for (std::size_t n = 1; n + 1 < loop.size(); ++n) sum += turn(points_[loop[0]], points_[loop[n]], points_[loop[n + 1]]);
+    for (std::size_t n = 1; n + 1 < loop.size(); ++n)
+      sum += turn(points_[loop[0]], points_[loop[n]], points_[loop[n + 1]]);
     return sum;
   }
 
   std::uint32_t addLoop(const std::vector<std::uint32_t>& loop) {
-    const auto start = static_cast<std::uint32_t>(rings_.corners.size()), count = static_cast<std::uint32_t>(loop.size());
+    const auto start = static_cast<std::uint32_t>(rings_.corners.size()),
+               count = static_cast<std::uint32_t>(loop.size());
     for (std::uint32_t n = 0; n < count; ++n)
       rings_.corners.push_back({loop[n], start + (n + count - 1) % count, start + (n + 1) % count});
     return start;

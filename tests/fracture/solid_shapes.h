@@ -1,6 +1,7 @@
 // Small closed meshes of every kind that a cut may meet.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "assets/sample_meshes.h"
@@ -23,6 +24,32 @@ inline TriangleMesh shifted(TriangleMesh mesh, const Vec3d& by) {
 
 inline TriangleMesh turnedInsideOut(TriangleMesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+/// A box with one corner at the origin, each face in n x n squares of two triangles.
+inline TriangleMesh latticeBox(int n, const Vec3d& size) {
+  TriangleMesh mesh;
+  std::map<std::array<int, 3>, std::uint32_t> numberOf;
+  const auto vertex = [&](int axis, int side, int i, int j) {
+    std::array<int, 3> at{};
+    at[axis] = side * n;
+    at[(axis + 1) % 3] = i;
+    at[(axis + 2) % 3] = j;
+    const auto [place, isNew] = numberOf.try_emplace(at, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (isNew) mesh.vertices.push_back({size.x * at[0] / n, size.y * at[1] / n, size.z * at[2] / n});
+    return place->second;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side)
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          const std::uint32_t a = vertex(axis, side, i, j), c = vertex(axis, side, i + 1, j + 1);
+          std::uint32_t b = vertex(axis, side, i + 1, j), d = vertex(axis, side, i, j + 1);
+          if (side == 0) std::swap(b, d);
+          mesh.triangles.push_back({a, b, c});
+          mesh.triangles.push_back({a, c, d});
+        }
   return mesh;
 }
 
