@@ -85,7 +85,8 @@ const bool registered = [] {
   using Solve = std::function<std::vector<double>(const FractureGraph&)>;
   const auto add = [](const std::string& shape, const std::string& size, long triangles, CurvatureWeights weights,
                       const std::string& who, int threads, const Solve& solve) {
-    const std::string row = fmt::format("Bisect/{}{}/{}/{}", shape, weights == CurvatureWeights::raw ? "Raw" : "", size, who);
+    const std::string row =
+        fmt::format("Bisect/{}{}/{}/{}", shape, weights == CurvatureWeights::raw ? "Raw" : "", size, who);
     benchmark::RegisterBenchmark(row.c_str(), [=](benchmark::State& state) {
       bisect(state, shape, triangles, weights, threads, solve);
     })->Unit(benchmark::kMillisecond);

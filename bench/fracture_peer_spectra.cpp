@@ -1,7 +1,7 @@
 #ifdef BRISANCE_HAS_SPECTRA
 #pragma GCC diagnostic ignored "-Wconversion"
-#include <Eigen/Sparse>
 #include <Spectra/SymEigsShiftSolver.h>
+#include <Eigen/Sparse>
 
 #include "base/check.h"
 #include "base/random.h"
