@@ -96,12 +96,35 @@ BlockVector<K, double> anyVectors(std::size_t nodes) {
   return x;
 }
 
+/// x = x - damping D^-1 L x
+template <int K>
+void jacobiSweep(const LaplacianRows& rows, double damping, BlockVector<K, double>& x,
+                 BlockVector<K, double>& scratch) {
+  forNodes(x.size(), [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      std::array<double, K> sum{};
+      for (std::uint32_t k = rows.first[i]; k < rows.first[i + 1]; ++k)
+        for (int c = 0; c < K; ++c) sum[c] += rows.weights[k] * (x[i][c] - x[rows.targets[k]][c]);
+      for (int c = 0; c < K; ++c) scratch[i][c] = x[i][c] - damping / rows.diagonal[i] * sum[c];
+    }
+  });
+  x.swap(scratch);
+}
+
+/// From the next level, constant on each aggregate, then smoothed: D^-1 L has eigenvalues up to 2, and the Chebyshev
+/// polynomial of these dampings leaves 4 % of what is above a tenth of that, but all of a smooth vector.
 template <int K>
 BlockVector<K, double> prolonged(const MultigridLevel& fine, const BlockVector<K, double>& coarse) {
-  BlockVector<K, double> x(fine.rows.size());
+  BlockVector<K, double> x(fine.rows.size()), scratch(fine.rows.size());
   forNodes(x.size(), [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) x[i] = coarse[fine.aggregateOf[i]];
   });
+  constexpr int sweeps = 6;
+  constexpr double lowest = 0.2, highest = 2;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const double root = portableSinCos(pi * (2 * sweep + 1) / (2 * sweeps)).cos;
+    jacobiSweep<K>(fine.rows, 2 / (highest + lowest + (highest - lowest) * root), x, scratch);
+  }
   return x;
 }
 
