@@ -286,15 +286,15 @@ TriangleMesh torus(long triangles) {
   return mesh;
 }
 
-TriangleMesh foldedSheet(int cells, double degrees) {
-  // Arc length s along the sheet; the direction turns by `degrees` in all, along a smooth step about s = 0.
+TriangleMesh foldedSheet(int cells, double degrees, double foldAt) {
+  // Arc length s along the sheet from the fold; the direction turns by `degrees` in all, along a smooth step.
   constexpr double length = 2, foldWidth = 0.2;
   TriangleMesh mesh;
   const int along = 2 * cells;
   const double step = length / along, turn = degrees * pi / 180;
   Vec3d place;
   for (int i = 0; i <= along; ++i) {
-    const double s = -length / 2 + i * step;
+    const double s = -foldAt * length + i * step;
     const double t = std::clamp(s / foldWidth + 0.5, 0.0, 1.0);
     const auto [sine, cosine] = portableSinCos(turn * (t * t * (3 - 2 * t) - 0.5));
     if (i > 0) place += Vec3d(cosine, 0, sine) * step;
@@ -307,6 +307,8 @@ TriangleMesh foldedSheet(int cells, double degrees) {
     }
   }
   const auto vertex = [&](int i, int j) { return static_cast<std::uint32_t>(i * (cells + 1) + j); };
+  const Vec3d fold = mesh.vertices[vertex(static_cast<int>(std::lround(foldAt * along)), cells / 2)];
+  recenter(mesh, {fold.x, 0, 0});
   for (int i = 0; i < along; ++i)
     for (int j = 0; j < cells; ++j) {
       mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});

@@ -24,9 +24,11 @@ TriangleMesh dumbbell(long triangles);
 TriangleMesh figurine(long triangles);
 /// Radii 1 and 0.4, about the z axis.
 TriangleMesh torus(long triangles);
-/// A sheet of n x 2n cells in x and y that is bent along x = 0 by `degrees`, over a width of a tenth of its length
-/// (thesis Figure 4.4): open, curved along the fold only as a bumpy sheet is.
-TriangleMesh foldedSheet(int cells, double degrees);
+/// A sheet of 2 m x 1 m in 2n rows of n cells, open, bent by `degrees` along a fold 0.2 m wide at `foldAt` of its
+/// length (thesis Figure 4.4), where it is slightly curved across too: a sheet that is bent one way only has no
+/// Gaussian curvature. Flat elsewhere. The fold is off the middle, so that it, and not the outline, says where the
+/// sheet is weak. Vertices in rows along the sheet, n + 1 each; the middle of the fold at x = 0.
+TriangleMesh foldedSheet(int cells, double degrees, double foldAt = 0.35);
 
 /// Sum of four octaves of smooth lattice noise, from about -2 to 2.
 double noise(const Vec3d& p);

@@ -19,7 +19,7 @@
 namespace brisance {
 namespace {
 
-constexpr int pieces = 512;
+constexpr int pieces = 512, repetitions = 5;
 
 /// Triangles and vertices in random order: what a file from elsewhere may be.
 TriangleMesh shuffled(TriangleMesh mesh) {
@@ -130,6 +130,8 @@ void add(const std::string& size, long triangles, bool shuffle) {
   const auto row = [&](const char* who, const Partitioner& partitioner) {
     benchmark::RegisterBenchmark((prefix + who).c_str(), measure, triangles, shuffle, partitioner)
         ->Unit(benchmark::kMillisecond)
+        ->Repetitions(repetitions)
+        ->ReportAggregatesOnly()
         ->UseRealTime();
   };
   row("Brisance", [](const Input& in) { return partitionBreadthFirst(in.graph, pieces).pieceOf; });

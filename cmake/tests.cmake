@@ -18,7 +18,7 @@ function(brisance_tests folder)
 endfunction()
 
 foreach(folder base grid mesh fluid particles rigid fracture frame simulation render scene)
-  brisance_tests(${folder} USES ${folder} sample_meshes LIBRARIES nlohmann_json::nlohmann_json)
+  brisance_tests(${folder} USES ${folder} sample_meshes LIBRARIES nlohmann_json::nlohmann_json Eigen3::Eigen)
 endforeach()
 brisance_tests(laws USES scene sample_meshes LIBRARIES nlohmann_json::nlohmann_json)
 brisance_tests(faults USES scene LIBRARIES nlohmann_json::nlohmann_json)

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "mesh/mesh_file.h"
+#include "mesh/mesh_repair.h"
 #include "mesh/mesh_topology.h"
 #include "scene/scene_file.h"
 #include "simulation/make_bodies.h"
@@ -43,6 +44,13 @@ FrameBody atRest(const BrokenBody& body, const Piece& piece, const std::string& 
   return rest;
 }
 
+void mend(const Options& options, BrokenBody& body) {
+  RepairedMesh repaired = repair(body.input);
+  if (body.settings.solid.enabled) requireSolid(repaired, options.path);
+  body.input = std::move(repaired.mesh);
+  body.repairs = std::move(repaired.done);
+}
+
 }  // namespace
 
 BrokenBody breakMeshFile(const Options& options) {
@@ -51,8 +59,9 @@ BrokenBody breakMeshFile(const Options& options) {
   body.settings = options.fracture.settings;
   body.material = "outside";
   const Stopwatch reading;
-  body.input = readObj(options.path);
+  body.input = readMesh(options.path);
   body.inputClosed = isClosed(welded(body.input));
+  if (body.settings.solid.enabled || options.fracture.repair) mend(options, body);
   body.readSeconds = reading.seconds();
   const Stopwatch breaking;
   constexpr double shellThickness = 0.01;  // [m] for the inertia of open pieces

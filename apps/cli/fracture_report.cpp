@@ -38,7 +38,7 @@ Json pieceJson(const Piece& piece, bool solid, const Json& neighbours) {
   const TriangleMesh surface = welded(piece.mesh);
   Json facts{{"triangles", piece.mesh.triangles.size()},
              {"connected", componentCount(surface) == 1},
-             {"closed", isClosed(surface)},
+             {"closed", isWatertight(surface)},
              {"area", piece.properties.area},
              {"volume", solid ? piece.properties.volume : 0.0},
              {"centroid", toJson(piece.place)},

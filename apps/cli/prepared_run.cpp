@@ -90,7 +90,7 @@ std::vector<KeyedLine> keyedLines(const std::string& text) {
 
 void checkInputs(const Scene& scene) {
   for (const BodySettings& body : scene.simulation.bodies)
-    if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) readObj(mesh->file);
+    if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) readMesh(mesh->file);
   RenderAssets textures(scene.render);
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fracture/cell_atoms.h"
-#include "fracture/disjoint_sets.h"
+#include "mesh/disjoint_sets.h"
 
 namespace brisance {
 

@@ -25,32 +25,56 @@ struct Sides {
   Sweep first;            ///< the first side, open
   Sweep second;           ///< the second side, numbered from the far end
   double secondSize = 0;  ///< of its nodes
-  explicit Sides(const SubGraph& part, std::uint32_t place_);
+  Sides(const SubGraph& part, std::uint32_t place_);
 };
 
-/// The nodes from `place` on without all islands but their largest; of equals the one nearer to the end.
-Sides::Sides(const SubGraph& part, std::uint32_t place_)
-    : place(place_), first(part.nodeCount()), second(part.nodeCount()) {
+/// Numbers the largest island of the nodes from `place` on (of equals the one nearest to the end).
+void sweepLargestIsland(const SubGraph& part, std::uint32_t place, Sweep& sweep) {
   const std::uint32_t end = part.nodeCount();
-  second.openRange(place, end);
+  sweep.openRange(place, end);
   std::uint32_t left = end - place, largest = 0, largestStart = 0;
   for (std::uint32_t start = end; start-- > place && left > largest;) {
-    if (!second.isOpen(start)) continue;
-    const std::uint32_t count = second.from(start, part);
+    if (!sweep.isOpen(start)) continue;
+    const std::uint32_t count = sweep.from(start, part);
     left -= count;
     if (count > largest) std::tie(largest, largestStart) = std::pair(count, start);
   }
-  if (largest < end - place) {
-    second.reopen();
-    second.from(largestStart, part);
-    for (std::uint32_t node = place; node < end; ++node)
-      if (second.isOpen(node)) second.close(node);
-  }
-  first.openRange(0, end);
+  if (largest == end - place) return;
+  sweep.reopen();
+  sweep.from(largestStart, part);
+}
+
+/// The nodes from `place` on without all islands but their largest.
+Sides::Sides(const SubGraph& part, std::uint32_t place_)
+    : place(place_), first(part.nodeCount()), second(part.nodeCount()) {
+  sweepLargestIsland(part, place, second);
+  for (std::uint32_t node = place; node < part.nodeCount(); ++node)
+    if (second.isOpen(node)) second.close(node);
+  first.openRange(0, part.nodeCount());
   for (const std::uint32_t node : second.order()) {
     first.close(node);
     secondSize += sizeOf(part, node);
   }
+}
+
+/// Cut in proportion to pieces: where the second side loses islands, again with as much more for it, and the best of a
+/// few such cuts.
+Sides evenSides(const SubGraph& part, int firstPieces, int pieces) {
+  constexpr int tries = 3;
+  constexpr double closeEnough = 0.02;  // of a piece
+  const double piece = totalSize(part) / pieces, wanted = piece * (pieces - firstPieces);
+  const auto missing = [&](const Sides& sides) { return wanted - sides.secondSize; };
+  const auto least = static_cast<std::uint32_t>(firstPieces);
+  Sides best(part, cutPlace(part, firstPieces, pieces));
+  std::uint32_t place = best.place;
+  double lost = missing(best);
+  for (int i = 0; i < tries && lost > closeEnough * piece && place > least; ++i) {
+    for (double back = 0; place > least && back < lost; back += sizeOf(part, place)) --place;
+    Sides other(part, place);
+    lost = missing(other);
+    if (std::abs(lost) < std::abs(missing(best))) best = std::move(other);
+  }
+  return best;
 }
 
 /// Divides parts and notes the piece of every node; a part's pieces have consecutive numbers.
@@ -60,7 +84,7 @@ class Divider {
 
   void divide(const SubGraph& part, int firstPiece, int pieces) {
     if (pieces == 1) return assign(part, firstPiece);
-    Sides sides(part, cutPlace(part, (pieces + 1) / 2, pieces));
+    Sides sides = evenSides(part, (pieces + 1) / 2, pieces);
     const int ofFirst = piecesOfFirst(part, sides, pieces);
     const auto side = [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i)
@@ -129,7 +153,7 @@ Partition partitionBreadthFirst(const FractureGraph& graph, int pieces) {
 
 std::vector<std::uint32_t> breadthFirstHalf(const SubGraph& part) {
   const SubGraph ordered = fromAnEnd(part);
-  const Sides sides(ordered, cutPlace(ordered, 1, 2));
+  const Sides sides = evenSides(ordered, 1, 2);
   std::vector<std::uint32_t> half;
   for (const std::uint32_t node : sides.second.order()) half.push_back(ordered.names[node]);
   return half;

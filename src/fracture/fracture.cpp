@@ -4,6 +4,7 @@
 
 #include "base/check.h"
 #include "fracture/partition.h"
+#include "fracture/solid_fracture.h"
 #include "mesh/extrusion.h"
 #include "mesh/mesh_topology.h"
 
@@ -160,6 +161,7 @@ FracturedBody fracturePane(const PaneSettings& pane, const FractureSettings& fra
 }
 
 FracturedBody fractureMesh(const TriangleMesh& mesh, const FractureSettings& fracture, double shellThickness) {
+  if (fracture.solid.enabled) return fractureSolid(mesh, fracture);
   FracturedBody body;
   if (fracture.pieces == 1) {
     body.pieces.push_back(wholePiece(mesh, shellThickness));

@@ -50,7 +50,8 @@ struct CutLine {
 };
 CutLine cutLine(const TriangleMesh& mesh, const std::vector<int>& pieceOfTriangle);
 
-/// A mesh cut along its own triangles: pieces of a closed mesh are open shells (thesis 4.2), whole if pieces = 1.
+/// A mesh cut along its own triangles: pieces of a closed mesh are open shells (thesis 4.2), whole if pieces = 1. With
+/// settings.solid the pieces are solids (solid_fracture.h); the mesh must be closed then. Throws InputError.
 FracturedBody fractureMesh(const TriangleMesh& mesh, const FractureSettings& fracture, double shellThickness);
 
 }  // namespace brisance

@@ -14,8 +14,8 @@ inline constexpr std::string_view fractureMethodNames[] = {"breadth_first", "bre
                                                            "spectral", "voronoi"};
 
 struct Cut {
-  Partition partition;
-  std::vector<double> eigenvalues;  ///< of the first spectral cut: 0, and the smallest others; else empty
+  Partition partition = {};
+  std::vector<double> eigenvalues = {};  ///< of the first spectral cut: 0, and the smallest others; else empty
   double graphSeconds = 0, partitionSeconds = 0;
 };
 

@@ -66,7 +66,7 @@ bool nextMove(MoveQueue& queue, PieceMoves& moves, PieceMoves::Move& move) {
 }
 
 /// Pieces above their limit give nodes of their border to neighbours that are less full, at the least cost.
-void evenOut(PieceMoves& moves, std::uint32_t pieces) {
+void evenOut(PieceMoves& moves) {
   constexpr int rounds = 8;  // a surplus passes on from neighbour to neighbour
   for (int round = 0; round < rounds; ++round) {
     MoveQueue queue;
@@ -82,7 +82,6 @@ void evenOut(PieceMoves& moves, std::uint32_t pieces) {
         if (moves.piece(next) == from) queue.push(moves.best(next));
     }
   }
-  static_cast<void>(pieces);
 }
 
 /// Searches around single nodes of the border for runs of moves that pay off together though the first ones cost
@@ -129,11 +128,12 @@ class LocalSearch {
 
 Numbers refined(const CoarseLevel& level, Numbers pieceOf, const SizeLimits& limits) {
   PieceMoves moves(level, std::move(pieceOf), limits);
-  evenOut(moves, static_cast<std::uint32_t>(limits.most.size()));
+  evenOut(moves);
   moveDownhill(moves);
   if (level.nodeCount() <= fewNodes) {
+    constexpr int passes = 2;
     LocalSearch search(moves);
-    for (int pass = 0; pass < 2; ++pass) {
+    for (int pass = 0; pass < passes; ++pass) {
       search.pass();
       moveDownhill(moves);
     }
@@ -160,6 +160,33 @@ SizeLimits limitsOf(const CoarseLevel& finest, Balance balance) {
   return limits;
 }
 
+/// Levels from the given graph down to a few nodes for each piece.
+std::vector<CoarseLevel> levelsOf(CoarseLevel finest, int pieces) {
+  constexpr double leastStep = 0.95;  // a level that hardly shrinks is not worth its memory
+  const double coarsest = coarsestNodes * pieces, largestNode = finest.nodeCount() / coarsest;
+  std::vector<CoarseLevel> levels;
+  levels.push_back(std::move(finest));
+  while (levels.back().nodeCount() > coarsest) {
+    CoarseLevel next = coarser(levels.back(), largestNode);
+    if (next.nodeCount() > leastStep * levels.back().nodeCount()) break;
+    levels.push_back(std::move(next));
+  }
+  return levels;
+}
+
+Numbers piecesWhereMade(const CoarseLevel& level) {
+  Numbers pieceOf(level.nodeCount());
+  for (std::uint32_t piece = 0; piece + 1 < level.pieceBegin.size(); ++piece)
+    std::fill(pieceOf.begin() + level.pieceBegin[piece], pieceOf.begin() + level.pieceBegin[piece + 1], piece);
+  return pieceOf;
+}
+
+Numbers onFiner(const CoarseLevel& finer, const Numbers& pieceOf) {
+  Numbers result(finer.nodeCount());
+  for (std::uint32_t node = 0; node < finer.nodeCount(); ++node) result[node] = pieceOf[finer.coarse[node]];
+  return result;
+}
+
 }  // namespace
 
 Partition refineCut(const FractureGraph& graph, const Partition& partition, Balance balance) {
@@ -167,30 +194,11 @@ Partition refineCut(const FractureGraph& graph, const Partition& partition, Bala
         graph.nodeCount());
   if (partition.count < 2) return partition;
   Numbers names;
-  std::vector<CoarseLevel> levels;
-  levels.push_back(finestLevel(graph, partition, names));
+  std::vector<CoarseLevel> levels = levelsOf(finestLevel(graph, partition, names), partition.count);
   const SizeLimits limits = limitsOf(levels[0], balance);
-  const double coarsest = coarsestNodes * partition.count;
-  while (levels.back().nodeCount() > coarsest) {
-    CoarseLevel next = coarser(levels.back(), graph.nodeCount() / coarsest);
-    constexpr double leastStep = 0.95;  // a level that hardly shrinks is not worth its memory
-    const bool stuck = next.nodeCount() > leastStep * levels.back().nodeCount();
-    if (stuck) break;
-    levels.push_back(std::move(next));
-  }
-  Numbers pieceOf(levels.back().nodeCount());
-  for (int piece = 0; piece < partition.count; ++piece)
-    std::fill(pieceOf.begin() + levels.back().pieceBegin[piece], pieceOf.begin() + levels.back().pieceBegin[piece + 1],
-              piece);
-  while (true) {
-    pieceOf = refined(levels.back(), std::move(pieceOf), limits);
-    levels.pop_back();
-    if (levels.empty()) break;
-    const CoarseLevel& finer = levels.back();
-    Numbers ofFiner(finer.nodeCount());
-    for (std::uint32_t node = 0; node < finer.nodeCount(); ++node) ofFiner[node] = pieceOf[finer.coarse[node]];
-    pieceOf = std::move(ofFiner);
-  }
+  Numbers pieceOf = refined(levels.back(), piecesWhereMade(levels.back()), limits);
+  for (levels.pop_back(); !levels.empty(); levels.pop_back())
+    pieceOf = refined(levels.back(), onFiner(levels.back(), pieceOf), limits);
   Partition result{std::vector<int>(graph.nodeCount()), partition.count};
   for (std::uint32_t node = 0; node < pieceOf.size(); ++node)
     result.pieceOf[names[node]] = static_cast<int>(pieceOf[node]);

@@ -3,8 +3,8 @@
 #include <map>
 #include <numeric>
 
-#include "fracture/disjoint_sets.h"
 #include "fracture/solid_angle.h"
+#include "mesh/disjoint_sets.h"
 #include "mesh/mass_properties.h"
 
 namespace brisance {

@@ -10,6 +10,7 @@
 #include "fracture/solid_parts.h"
 #include "fracture/solid_seeds.h"
 #include "mesh/convex_hull.h"
+#include "mesh/mesh_topology.h"
 
 namespace brisance {
 namespace {
@@ -21,6 +22,14 @@ struct SolidCut {
   Partition pieces;
   std::vector<double> eigenvalues;  ///< of a spectral partition
 };
+
+/// Vertices that lie at one place, doubled for their normals or uvs, are one vertex of the surface.
+std::vector<double> strengthWithSeams(const TriangleMesh& mesh, CurvatureWeights weights) {
+  std::vector<double> strength = vertexStrength(welded(mesh), weights);
+  const std::vector<std::uint32_t> first = samePlaces(mesh.vertices);
+  for (std::size_t v = 0; v < strength.size(); ++v) strength[v] = strength[first[v]];
+  return strength;
+}
 
 /// Cuts one body. Without result where the surface crosses itself so that pieces stay open.
 class SolidBreaker {
@@ -89,7 +98,7 @@ class SolidBreaker {
   SolidCut fused() {
     std::vector<double> strength;
     if (const Curvature* curvature = std::get_if<Curvature>(&settings_.method))
-      strength = vertexStrength(mesh_, curvature->weights);
+      strength = strengthWithSeams(mesh_, curvature->weights);
     auto result = cut(seeds(pieces_ * cellsPerPiece()), {}, [&](SolidCut& c) {
       auto parts = partitionGraph(atomGraph(c.complex, c.atoms, strength), settings_);
       c.eigenvalues = std::move(parts.eigenvalues);

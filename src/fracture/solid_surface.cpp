@@ -5,8 +5,8 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
-#include "fracture/disjoint_sets.h"
 #include "fracture/distinct_places.h"
+#include "mesh/disjoint_sets.h"
 
 namespace brisance {
 namespace {

@@ -1,6 +1,7 @@
 #include "fracture/voronoi.h"
 
 #include <map>
+#include <numeric>
 
 #include "base/check.h"
 #include "base/parallel.h"
@@ -11,36 +12,47 @@
 namespace brisance {
 namespace {
 
+using Nodes = std::vector<std::uint32_t>;
+
+/// A part's nodes in the graph's own order.
+Nodes nodesOf(const SubGraph& part, const FractureGraph& graph) {
+  Nodes nodes(part.nodeCount());
+  if (static_cast<int>(nodes.size()) == graph.nodeCount()) {
+    std::iota(nodes.begin(), nodes.end(), 0u);
+  } else {
+    std::copy(part.names.begin(), part.names.end(), nodes.begin());
+    std::sort(nodes.begin(), nodes.end());
+  }
+  return nodes;
+}
+
 template <class Value>
-std::vector<Value> ofPart(const std::vector<Value>& values, const SubGraph& part) {
+std::vector<Value> valuesOf(const Nodes& nodes, const std::vector<Value>& values) {
   std::vector<Value> result;
-  result.reserve(part.nodeCount());
-  if (!values.empty())
-    for (const std::uint32_t name : part.names) result.push_back(values[name]);
+  if (values.empty()) return result;
+  result.reserve(nodes.size());
+  for (const std::uint32_t node : nodes) result.push_back(values[node]);
   return result;
 }
 
-/// Cells first, first + 1, ... of one part.
-void growCells(const FractureGraph& graph, const SubGraph& part, const std::vector<std::uint32_t>& seeds, int first,
+/// Cells first, first + 1, ... around some of the nodes of one part.
+void growCells(const FractureGraph& graph, const Nodes& nodes, const std::vector<std::uint32_t>& seeds, int first,
                std::vector<int>& pieceOf) {
   std::vector<PointTree::Entry> entries;
-  for (std::uint32_t cell = 0; cell < seeds.size(); ++cell)
-    entries.push_back({graph.places[part.names[seeds[cell]]], cell});
+  for (std::uint32_t cell = 0; cell < seeds.size(); ++cell) entries.push_back({graph.places[nodes[seeds[cell]]], cell});
   const PointTree tree(std::move(entries));
   constexpr std::int64_t perTask = 8192;
-  parallelFor(0, part.nodeCount(), perTask, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t node = begin; node < end; ++node) {
+  parallelFor(0, std::ssize(nodes), perTask, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
       Nearest nearest;
-      tree.search(graph.places[part.names[node]], nearest);
-      pieceOf[part.names[node]] = first + static_cast<int>(nearest.id);
+      tree.search(graph.places[nodes[i]], nearest);
+      pieceOf[nodes[i]] = first + static_cast<int>(nearest.id);
     }
   });
   // Where two nodes lie on one point, each may be a seed: no cell is left empty.
   for (std::uint32_t cell = 0; cell < seeds.size(); ++cell)
-    pieceOf[part.names[seeds[cell]]] = first + static_cast<int>(cell);
+    pieceOf[nodes[seeds[cell]]] = first + static_cast<int>(cell);
 }
-
-using Nodes = std::vector<std::uint32_t>;
 
 /// All islands of all pieces.
 struct Islands {
@@ -144,10 +156,10 @@ Partition partitionVoronoi(const FractureGraph& graph, int pieces, const Voronoi
   const std::vector<int> shares = sharePieces(parts, pieces);
   Partition partition{std::vector<int>(graph.nodeCount()), 0};
   for (std::size_t i = 0; i < parts.size(); partition.count += shares[i++]) {
-    const std::vector<Vec3d> places = ofPart(graph.places, parts[i]);
+    const Nodes nodes = nodesOf(parts[i], graph);
     const std::vector<std::uint32_t> seeds =
-        crowdedPoints(places, ofPart(graph.sizes, parts[i]), shares[i], cells, seed + i);
-    growCells(graph, parts[i], seeds, partition.count, partition.pieceOf);
+        crowdedPoints(valuesOf(nodes, graph.places), valuesOf(nodes, graph.sizes), shares[i], cells, seed + i);
+    growCells(graph, nodes, seeds, partition.count, partition.pieceOf);
   }
   joinStrayIslands(graph, partition);
   numberByLowestNode(partition);

@@ -11,7 +11,7 @@ namespace brisance {
 /// Sets of numbers that are joined pair by pair; the root of a set is its lowest number.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit DisjointSets(std::size_t count) : parent_(count, 0u) { std::iota(parent_.begin(), parent_.end(), 0u); }
   std::uint32_t root(std::uint32_t n) {
     while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
     return n;

@@ -228,12 +228,6 @@ std::string_view GltfDocument::view(std::size_t number) {
   return bytes.substr(offset, *length);
 }
 
-std::size_t GltfDocument::count(std::size_t accessor) const {
-  const auto count = number(entry("accessors", accessor), "count");
-  if (!count) fail(fmt::format("accessors {}", accessor), "must have a count");
-  return *count;
-}
-
 GltfDocument::Rows GltfDocument::rows(std::size_t number, std::size_t width) {
   const Json& accessor = entry("accessors", number);
   const std::string place = fmt::format("accessors {}", number);
@@ -243,7 +237,9 @@ GltfDocument::Rows GltfDocument::rows(std::size_t number, std::size_t width) {
   const std::string types[] = {"", "SCALAR", "VEC2", "VEC3"};
   if (!accessor.contains("type") || accessor["type"] != types[width])
     fail(place, fmt::format("is of another type, must be {}", types[width]));
-  Rows rows{view(*viewNumber), count(number), 0, 0, false};
+  const auto promised = this->number(accessor, "count");
+  if (!promised) fail(place, "must have a count");
+  Rows rows{view(*viewNumber), *promised, 0, 0, false};
   const std::size_t componentType = this->number(accessor, "componentType").value_or(0);
   rows.componentType = componentType > float32 ? 0 : static_cast<int>(componentType);
   rows.normalized = accessor.contains("normalized") && accessor["normalized"] == true;

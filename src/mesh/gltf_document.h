@@ -29,7 +29,8 @@ class GltfDocument {
   /// by their greatest value where the accessor is normalized.
   std::vector<double> reals(std::size_t accessor, std::size_t width, bool integers);
   std::vector<std::uint32_t> indices(std::size_t accessor);
-  std::size_t count(std::size_t accessor) const;
+  /// Rows of `width` numbers that the accessor has, and its bytes hold.
+  std::size_t count(std::size_t accessor, std::size_t width) { return rows(accessor, width).count; }
 
   /// Bytes that the file and what it names hold in all.
   std::size_t bytesPresent() const { return bytesPresent_; }

@@ -181,10 +181,13 @@ class GltfReader {
                uv = document_.number(attributes, "TEXCOORD_0");
     const auto [known, isNew] = firstVertexOf_.try_emplace(std::tuple(position, normal, uv));
     if (!isNew) return known->second;
-    const std::size_t first = mesh_.vertices.size(), count = document_.count(*position);
-    for (const auto& accessor : {normal, uv})
-      if (accessor && document_.count(*accessor) != count)
+    const std::size_t first = mesh_.vertices.size(), count = document_.count(*position, 3);
+    const auto demandCount = [&](const std::optional<std::size_t>& accessor, std::size_t width) {
+      if (accessor && document_.count(*accessor, width) != count)
         document_.fail(fmt::format("accessors {}", *accessor), fmt::format("must have {} rows as its POSITION", count));
+    };
+    demandCount(normal, 3);
+    demandCount(uv, 2);
     charge(count);
     if (first + count >= notGiven) document_.fail("meshes", "more vertices than 4294967294 in all, must be fewer");
     addPositions(document_.reals(*position, 3, false), place, number);
@@ -226,7 +229,7 @@ class GltfReader {
   std::vector<std::uint32_t> cornersOf(const Json& primitive, std::uint32_t count) {
     std::vector<std::uint32_t> corners;
     if (const auto accessor = document_.number(primitive, "indices")) {
-      charge(document_.count(*accessor));
+      charge(document_.count(*accessor, 1));
       corners = document_.indices(*accessor);
       for (std::size_t i = 0; i < corners.size(); ++i)
         if (corners[i] >= count)

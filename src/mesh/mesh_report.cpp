@@ -165,6 +165,7 @@ class Examination {
       partOf.push_back(number[root]);
     }
     const Turning turning = turningOf(surface_, partOf, first.size());
+    report_.nestingJudged = turning.judged;
     for (std::size_t part = 0; part < first.size(); ++part)
       if (turning.turn[part]) report_.insideOut.note(centre(surface_.triangles[first[part]]), numberOf_[first[part]]);
   }
@@ -208,7 +209,7 @@ bool isSliver(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 
 bool MeshReport::isSound() const {
   return closed && pinched.count == 0 && repeated.count == 0 && slivers.count == 0 && duplicates.count == 0 &&
-         insideOut.count == 0 && crossing.pairs == 0;
+         insideOut.count == 0 && nestingJudged && crossing.pairs == 0;
 }
 
 MeshReport examine(const TriangleMesh& mesh) { return Examination(mesh).run(); }

@@ -25,13 +25,14 @@ struct MeshReport {
   bool closed = false;             ///< every edge is used exactly once in each direction
   Defect holes;                    ///< loops of open edges
   std::size_t openEdges = 0;
-  Defect tangledEdges;  ///< of more than two triangles
-  Defect flippedEdges;  ///< whose two triangles go the same way: one of them faces inward
-  Defect pinched;       ///< places where fans of triangles touch that share no edge there
-  Defect repeated;      ///< triangles that come back to one of their corners
-  Defect slivers;       ///< triangles of no area, of three different corners
-  Defect duplicates;    ///< triangles of the same three corners as an earlier one, either way around
-  Defect insideOut;     ///< closed parts that face the wrong way: inward, but for those inside another part
+  Defect tangledEdges;        ///< of more than two triangles
+  Defect flippedEdges;        ///< whose two triangles go the same way: one of them faces inward
+  Defect pinched;             ///< places where fans of triangles touch that share no edge there
+  Defect repeated;            ///< triangles that come back to one of their corners
+  Defect slivers;             ///< triangles of no area, of three different corners
+  Defect duplicates;          ///< triangles of the same three corners as an earlier one, either way around
+  Defect insideOut;           ///< closed parts that face the wrong way: inward, but for those inside another part
+  bool nestingJudged = true;  ///< false: too many parts overlap to tell which lie inside which
   SelfCrossing crossing;
   Vec3d crossingAt;        ///< [m] of the first triangle that is cut
   double area = 0;         ///< [m2]

@@ -76,6 +76,7 @@ std::string meshReportText(const MeshReport& report) {
                         report.crossing.all ? "" : "at least ", textOf(crossingOf(report)));
   else if (!report.crossing.all)
     text += "whether it cuts through itself would take too long to tell\n";
+  if (!report.nestingJudged) text += "which parts lie inside others would take too long to tell\n";
   if (report.unusedVertices > 0) text += fmt::format("vertices that no triangle uses: {}\n", report.unusedVertices);
   return text + (report.isSound() ? "sound: a solid as it is\n" : "");
 }
@@ -101,6 +102,7 @@ std::string meshReportJson(const MeshReport& report) {
             {"materials", report.materialNames}};
   if (report.closed) json["volume"] = report.volume, json["genus"] = report.genus;
   for (const NamedDefect& named : defects) json[named.key] = placeOf(report.*named.defect);
+  json["nesting_judged"] = report.nestingJudged;
   json["self_crossings"] = placeOf(crossingOf(report));
   json["self_crossings"]["all"] = report.crossing.all;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -70,6 +70,15 @@ bool isClosed(const TriangleMesh& mesh) {
   return closed;
 }
 
+bool isWatertight(const TriangleMesh& mesh) {
+  bool watertight = !mesh.triangles.empty();
+  forEachEdge(mesh.triangles, mesh.vertices.size(), [&](std::uint32_t low, std::span<const EdgeUse> uses) {
+    const auto rising = std::count_if(uses.begin(), uses.end(), [](const EdgeUse& use) { return use.rising; });
+    watertight = watertight && uses[0].high != low && 2 * rising == static_cast<std::ptrdiff_t>(uses.size());
+  });
+  return watertight;
+}
+
 std::vector<std::uint32_t> samePlaces(const std::vector<Vec3d>& places) {
   NumberTable table(places.size());
   std::vector<std::uint32_t> first(places.size());

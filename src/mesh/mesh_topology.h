@@ -14,6 +14,9 @@ std::vector<Triangle> edgeNeighbours(const std::vector<Triangle>& triangles, std
 
 /// Every edge is used exactly once in each direction; a mesh of no triangles bounds nothing.
 bool isClosed(const TriangleMesh& mesh);
+/// Every edge is used as often in one direction as in the other, so that there is an inside and an outside: also where
+/// more than two triangles share an edge, because the surface touches itself there.
+bool isWatertight(const TriangleMesh& mesh);
 /// Per place the number of the first that equals it exactly (0 and -0 are equal).
 std::vector<std::uint32_t> samePlaces(const std::vector<Vec3d>& places);
 /// The bare surface: vertices at exactly the same place, doubled for their normals or uvs, are one again. Triangles

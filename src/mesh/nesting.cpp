@@ -7,9 +7,11 @@
 namespace brisance {
 namespace {
 
-constexpr std::size_t mostBoxes = 100'000'000;  // looked at, in all
-/// A point of a triangle that lies above no corner or edge of other, regularly made ones.
+constexpr std::size_t mostBoxes = 20'000'000;  // looked at, in all: a fraction of a second
+/// Where a ray starts in a triangle, and the slopes of its way along x: such that it does not run within the planes or
+/// through the edges of regularly made shapes.
 constexpr double shareA = 0.537702, shareB = 0.291139, shareC = 1 - shareA - shareB;
+constexpr double slopeY = 0.318713, slopeZ = 0.174617;
 
 /// Six times the volume between each part and a corner of its own, far from which it would cancel to nothing.
 std::vector<double> volumes(const TriangleMesh& surface, const std::vector<std::uint32_t>& partOf, std::size_t parts) {
@@ -25,22 +27,27 @@ std::vector<double> volumes(const TriangleMesh& surface, const std::vector<std::
   return volume;
 }
 
-/// Twice the area of a, b, p seen along x; the same but for its sign from either side of the edge.
-double areaAlongX(const TriangleMesh& surface, std::uint32_t a, std::uint32_t b, const Vec3d& p) {
-  const bool swapped = a > b;
-  const Vec3d u = surface.vertices[swapped ? b : a] - p, v = surface.vertices[swapped ? a : b] - p;
-  const double area = u.y * v.z - u.z * v.y;
-  return swapped ? -area : area;
+/// Twice the area of a, b, p seen along the rays: of opposite sign from either side of an edge, to the last bit.
+double areaAlongRay(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
+  const Vec3d u = a - p, v = b - p;
+  const double uy = u.y - slopeY * u.x, uz = u.z - slopeZ * u.x, vy = v.y - slopeY * v.x, vz = v.z - slopeZ * v.x;
+  return uy * vz - uz * vy;
 }
 
-/// Whether a ray from p along +x goes through the triangle.
+/// Whether the ray from p goes through the triangle.
 bool isAhead(const TriangleMesh& surface, const Triangle& t, const Vec3d& p) {
-  const double c = areaAlongX(surface, t[0], t[1], p), a = areaAlongX(surface, t[1], t[2], p),
-               b = areaAlongX(surface, t[2], t[0], p);
+  const Vec3d &q = surface.vertices[t[0]], &r = surface.vertices[t[1]], &s = surface.vertices[t[2]];
+  const double c = areaAlongRay(q, r, p), a = areaAlongRay(r, s, p), b = areaAlongRay(s, q, p), sum = a + b + c;
   const bool around = (a >= 0 && b >= 0 && c >= 0) || (a < 0 && b < 0 && c < 0);
-  if (!around || a + b + c == 0) return false;
-  const double x = (a * surface.vertices[t[0]].x + b * surface.vertices[t[1]].x + c * surface.vertices[t[2]].x);
-  return x / (a + b + c) > p.x;
+  return around && sum != 0 && (a * q.x + b * r.x + c * s.x) / sum > p.x;
+}
+
+/// Whether the ray from p meets the box.
+bool meetsRay(const Box3& box, const Vec3d& p) {
+  double from = std::max(0.0, box.lower.x - p.x), to = box.upper.x - p.x;
+  from = std::max({from, (box.lower.y - p.y) / slopeY, (box.lower.z - p.z) / slopeZ});
+  to = std::min({to, (box.upper.y - p.y) / slopeY, (box.upper.z - p.z) / slopeZ});
+  return from <= to;
 }
 
 class Nesting {
@@ -59,15 +66,14 @@ class Nesting {
   bool isInside(std::uint32_t triangle) {
     const auto& [a, b, c] = surface_.triangles[triangle];
     const Vec3d p = surface_.vertices[a] * shareA + surface_.vertices[b] * shareB + surface_.vertices[c] * shareC;
-    const auto meetsRay = [&](const Box3& box) {
-      return box.upper.x >= p.x && box.lower.y <= p.y && box.upper.y >= p.y && box.lower.z <= p.z && box.upper.z >= p.z;
-    };
     bool odd = false;  // crossings of all parts together: odd where an odd number of parts is crossed oddly
-    looked_ += tree_.search(meetsRay, [&](std::uint32_t n) {
-      const std::uint32_t other = triangles_[n];
-      odd ^= partOf_[other] != partOf_[triangle] && isAhead(surface_, surface_.triangles[other], p);
-      return true;
-    });
+    looked_ +=
+        tree_.search([&](const Box3& box) { return meetsRay(box, p); },
+                     [&](std::uint32_t n) {
+                       const std::uint32_t other = triangles_[n];
+                       odd ^= partOf_[other] != partOf_[triangle] && isAhead(surface_, surface_.triangles[other], p);
+                       return true;
+                     });
     return odd;
   }
   bool isTired() const { return looked_ > mostBoxes; }

@@ -150,7 +150,7 @@ class PlyReader {
   TriangleMesh read() {
     for (const PlyElement& element : header_.elements) readElement(element);
     if (mesh_.triangles.empty()) throw DamagedFile(file_ + ": no face, must hold an element 'face' of at least one");
-    finishNormals();
+    if (!mesh_.normals.empty()) finishNormals();
     if (!mesh_.materials.empty()) finishMaterials();
     return std::move(mesh_);
   }

@@ -15,6 +15,8 @@ class TriangleNet {
     triangles_.reserve(count);
     neighbours_.reserve(count);
   }
+  /// Gives the triangles away, once the work is done.
+  std::vector<Triangle> release() { return std::move(triangles_); }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   /// Across each edge (edge e joins corners e and e + 1), noTriangle at the border.
   const std::vector<Triangle>& neighbours() const { return neighbours_; }

@@ -22,19 +22,26 @@ class Trisector {
   }
 
   std::vector<Triangle> split() {
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& points : startOf_) count += points.size();
+    waiting_.reserve(count);
     for (const std::vector<std::uint32_t>& points : startOf_) {
       const auto first = static_cast<std::uint32_t>(waiting_.size());
-      waiting_.insert(waiting_.end(), points.begin(), points.end());
+      for (const std::uint32_t point : points) waiting_.push_back({nodes_[point], point});
       ranges_.push_back({first, static_cast<std::uint32_t>(waiting_.size())});
     }
     net_.reserve(ranges_.size() + 2 * waiting_.size());
     ranges_.reserve(ranges_.size() + 2 * waiting_.size());
     for (std::uint32_t t = 0; t < net_.triangles().size(); ++t)
       while (ranges_[t].first != ranges_[t].last) splitAt(t, takeAny(t));
-    return net_.triangles();
+    return net_.release();
   }
 
  private:
+  struct Waiting {
+    LatticePoint place;
+    std::uint32_t point;
+  };
   /// Places in waiting_ from first to before last.
   struct Range {
     std::uint32_t first = 0, last = 0;
@@ -52,7 +59,7 @@ class Trisector {
     Range& range = ranges_[triangle];
     --range.last;
     std::swap(waiting_[range.first + random_.below(range.last - range.first + 1, draw_++)], waiting_[range.last]);
-    return waiting_[range.last];
+    return waiting_[range.last].point;
   }
 
   void splitAt(std::uint32_t triangle, std::uint32_t point) {
@@ -75,37 +82,45 @@ class Trisector {
   /// to the new ones from `second` to `third` around their common corner `tip`. (Both new names may be one.)
   void share(std::uint32_t triangle, std::uint32_t second, std::uint32_t third, std::uint32_t tip) {
     const Range whole = ranges_[triangle];
-    std::uint32_t kept = whole.first;
+    const Wedge kept = wedgeOf(triangle, tip), moved = wedgeOf(second, tip);
+    std::uint32_t end = whole.first;
     moved_[0].clear();
     moved_[1].clear();
     for (std::uint32_t i = whole.first; i < whole.last; ++i) {
-      const std::uint32_t point = waiting_[i];
-      if (sees(triangle, tip, point))
-        waiting_[kept++] = point;
+      const Waiting point = waiting_[i];
+      if (kept.holds(point.place))
+        waiting_[end++] = point;
       else
-        moved_[second == third || sees(second, tip, point) ? 0 : 1].push_back(point);
+        moved_[second == third || moved.holds(point.place) ? 0 : 1].push_back(point);
     }
-    ranges_[triangle] = {whole.first, kept};
-    ranges_[second] = append(kept, moved_[0]);
+    ranges_[triangle] = {whole.first, end};
+    ranges_[second] = append(end, moved_[0]);
     if (second != third) ranges_[third] = append(ranges_[second].last, moved_[1]);
   }
-  Range append(std::uint32_t place, const std::vector<std::uint32_t>& points) {
+  Range append(std::uint32_t place, const std::vector<Waiting>& points) {
     std::copy(points.begin(), points.end(), waiting_.begin() + place);
     return {place, place + static_cast<std::uint32_t>(points.size())};
   }
-  /// Whether a point of the divided triangle lies between a part's two edges at the tip.
-  bool sees(std::uint32_t part, std::uint32_t tip, std::uint32_t point) const {
-    const Triangle& t = net_.triangles()[part];
-    const int at = t[0] == tip ? 0 : t[1] == tip ? 1 : 2;
-    return side(part, at, point) >= 0 && side(part, (at + 2) % 3, point) >= 0;
+
+  /// What lies between two edges of a triangle.
+  struct Wedge {
+    LatticePoint tip, right, left;
+    bool holds(const LatticePoint& p) const {
+      return orientation(tip, right, p) >= 0 && orientation(left, tip, p) >= 0;
+    }
+  };
+  Wedge wedgeOf(std::uint32_t triangle, std::uint32_t tip) const {
+    const auto& [a, b, c] = net_.triangles()[triangle];
+    if (a == tip) return {nodes_[a], nodes_[b], nodes_[c]};
+    return b == tip ? Wedge{nodes_[b], nodes_[c], nodes_[a]} : Wedge{nodes_[c], nodes_[a], nodes_[b]};
   }
 
   const std::vector<LatticePoint>& nodes_;
   TriangleNet net_;
   std::vector<std::vector<std::uint32_t>> startOf_;  ///< points in each triangle of the start
-  std::vector<std::uint32_t> waiting_;               ///< points that are no corner yet
+  std::vector<Waiting> waiting_;                     ///< points that are no corner yet
   std::vector<Range> ranges_;                        ///< of each triangle in waiting_
-  std::vector<std::uint32_t> moved_[2];              ///< scratch of share
+  std::vector<Waiting> moved_[2];                    ///< scratch of share
   Random random_;
   std::uint64_t draw_ = 0;
 };

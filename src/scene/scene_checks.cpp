@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <set>
 
@@ -92,19 +93,38 @@ void checkPane(const PaneSettings& pane, const std::string& path, const Places& 
     places.refuse(path + ".pattern", fault);
 }
 
+void checkFracture(const BodySettings& body, const std::string& path, const Places& places) {
+  const FractureSettings& fracture = body.fracture;
+  const int pieces = fracture.pieces;
+  const bool cutsTriangles = !fracture.solid.enabled || std::holds_alternative<PaneSettings>(body.shape);
+  if (pieces > 1 && !body.moves)
+    places.refuse(path + ".pieces", fmt::format("must be 1: scenery stays whole, got {}", pieces));
+  if (cutsTriangles && pieces > knownTriangles(body.shape))
+    places.refuse(path + ".pieces", fmt::format("must be at most the {} triangles of the shape, got {}",
+                                                knownTriangles(body.shape), pieces));
+  if (!std::holds_alternative<BreadthFirstThesis>(fracture.method)) return;
+  if (!cutsTriangles)
+    places.refuse(path + ".method", "must be another for solid pieces: breadth_first_thesis cuts triangles");
+  if (!std::has_single_bit(static_cast<unsigned>(pieces)))
+    places.refuse(path + ".pieces", fmt::format("must be a power of two for breadth_first_thesis, got {}", pieces));
+}
+
+void checkMesh(const MeshShape& mesh, const std::string& path, const Places& places) {
+  if (mesh.file.extension() == ".gltf")
+    places.refuse(path + ".file",
+                  "must be .glb, .obj, .ply or .stl: a .gltf keeps its vertices in other files, which a "
+                  "run would not hold");
+}
+
 void checkBody(const BodySettings& body, const std::string& path, const Places& places) {
   checkName(body.name, path, places);
   if (const auto* pane = std::get_if<PaneSettings>(&body.shape)) checkPane(*pane, path + ".shape", places);
+  if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) checkMesh(*mesh, path + ".shape", places);
   const bool rectangle = std::holds_alternative<RectangleShape>(body.shape);
   if (rectangle && body.moves) places.refuse(path + ".moves", "must be false: a rectangle is scenery");
   if (body.blocksGas && (body.moves || rectangle))
     places.refuse(path + ".blocks_gas", "must be false: only solid scenery (moves = false, no rectangle) blocks gas");
-  const int pieces = body.fracture.pieces;
-  if (pieces > 1 && !body.moves)
-    places.refuse(path + ".fracture.pieces", fmt::format("must be 1: scenery stays whole, got {}", pieces));
-  if (pieces > knownTriangles(body.shape))
-    places.refuse(path + ".fracture.pieces", fmt::format("must be at most the {} triangles of the shape, got {}",
-                                                         knownTriangles(body.shape), pieces));
+  checkFracture(body, path + ".fracture", places);
 }
 
 void checkBodies(const Scene& scene, const Places& places) {

@@ -1,6 +1,8 @@
 // The tables of the simulation: gas, explosion, rigid bodies.
 #include "scene/scene_keys.h"
 
+#include "fracture/partition.h"
+
 namespace brisance {
 namespace {
 
@@ -13,8 +15,6 @@ constexpr std::string_view shapeNames[] = {"sphere", "box", "rectangle", "mesh",
 constexpr std::string_view outlineNames[] = {"rectangle", "disc", "polygon"};
 constexpr std::string_view patternNames[] = {"uniform", "blue_noise", "impact"};
 constexpr std::string_view triangulationNames[] = {"trisection", "delaunay"};
-constexpr std::string_view fractureNames[] = {"breadth_first", "breadth_first_thesis", "curvature", "spectral",
-                                              "voronoi"};
 constexpr std::string_view splitNames[] = {"list", "level"};
 constexpr std::string_view curvatureWeightNames[] = {"clipped", "raw"};
 constexpr std::string_view insideNames[] = {"all", "smallest"};
@@ -130,7 +130,7 @@ struct ShapeKeys {
     visit(v, {"uv_repeat", "", above(0), "how often a texture repeats"}, rectangle.uvRepeat);
   }
   void operator()(KeyVisitor& v, MeshShape& mesh) const {
-    Key file{"file", "", anyValue, "Wavefront OBJ, relative to the scene file"};
+    Key file{"file", "", anyValue, "OBJ, PLY, STL or binary glTF (.glb), relative to the scene file"};
     file.required = true;
     visit(v, file, mesh.file);
     visit(v, {"scale", "m", above(0), "length of one unit of the file"}, mesh.scale);
@@ -233,12 +233,15 @@ void describeMethod(KeyVisitor& v, Voronoi& method) {
 
 void describeFracture(KeyVisitor& v, FractureSettings& fracture) {
   v.enter({"method", "", anyValue, "how pieces are chosen"}, true);
-  visitAlternatives(v, fractureNames, fracture.method,
+  visitAlternatives(v, fractureMethodNames, fracture.method,
                     [](KeyVisitor& inner, auto& method) { describeMethod(inner, method); });
   v.leave();
   visit(v, {"pieces", "", between(1, 1e5), "1 leaves it whole", {"n_r", "5.1, 5.3"}}, fracture.pieces);
   visit(v, {"refine", "", anyValue, "shorten the cuts and even out the sizes afterwards"}, fracture.refine);
-  visit(v, {"minimum_share", "", between(0, 1), "least size of a piece, relative to the mean"}, fracture.minimumShare);
+  visit(v,
+        {"minimum_share", "", between(0, 1),
+         "least size of a piece, relative to the mean; of solid ones by curvature or spectral 0.1 or more"},
+        fracture.minimumShare);
   visit(v, {"solid", "", anyValue, "pieces of a closed mesh are solids instead of shells"}, fracture.solid.enabled);
   visit(v,
         {"cells_per_piece", "", between(0, 1e4), "of solid pieces: how rough the inside faces are; 0: by the method"},

@@ -1,6 +1,7 @@
 #include "simulation/make_bodies.h"
 
 #include "mesh/mesh_file.h"
+#include "mesh/mesh_repair.h"
 #include "mesh/shapes.h"
 
 namespace brisance {
@@ -19,7 +20,12 @@ FracturedBody breakShape(const RectangleShape& r, const FractureSettings& fractu
   return fractureMesh(rectangleMesh(r.width, r.height, r.uvRepeat), fracture, surfaceThickness);
 }
 FracturedBody breakShape(const MeshShape& shape, const FractureSettings& fracture, std::uint64_t) {
-  TriangleMesh mesh = readObj(shape.file);
+  TriangleMesh mesh = readMesh(shape.file);
+  if (fracture.solid.enabled) {
+    RepairedMesh repaired = repair(mesh);
+    requireSolid(repaired, shape.file);
+    mesh = std::move(repaired.mesh);
+  }
   for (Vec3d& v : mesh.vertices) v *= shape.scale;
   return fractureMesh(mesh, fracture, shape.shellThickness);
 }
@@ -60,7 +66,9 @@ void addPiece(const BodySettings& settings, const Piece& piece, const std::strin
 }  // namespace
 
 FracturedBody breakBody(const BodySettings& body, std::uint64_t seed) {
-  return std::visit([&](const auto& shape) { return breakShape(shape, body.fracture, seed); }, body.shape);
+  FractureSettings fracture = body.fracture;
+  fracture.seed = seed;
+  return std::visit([&](const auto& shape) { return breakShape(shape, fracture, seed); }, body.shape);
 }
 
 std::string pieceName(const std::string& body, std::size_t piece, std::size_t pieces) {

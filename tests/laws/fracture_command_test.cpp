@@ -1,12 +1,14 @@
 // `brisance fracture`, as a script uses it.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "assets/sample_meshes.h"
 #include "faults/one_line.h"
 #include "frame/gltf_export.h"
+#include "mesh/mass_properties.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_topology.h"
 #include "program.h"
@@ -135,6 +137,57 @@ TEST_F(FractureCommand, BreaksTheBodiesOfASceneAsItSays) {
   for (const json& piece : told["bodies"][0]["pieces"]) EXPECT_EQ(piece["closed"], true);
   EXPECT_EQ(piecesFromGlb(textOf(file("scene.glb")), "scene.glb").size(), 9u);
   expectOneLine(runProgram({"fracture", file("scene.toml"), "--pieces", "3"}), 2, {"--set"});
+}
+
+TEST_F(FractureCommand, ScenesTakeNoMeshThatPointsToOtherFiles) {
+  writeText(directory_ / "house.gltf", "{}");
+  writeText(directory_ / "scene.toml",
+            "[[bodies]]\nname = \"a\"\nshape = { type = \"mesh\", file = \"house.gltf\" }\n");
+  expectOneLine(runProgram({"fracture", file("scene.toml")}), 2, {"scene.toml:3", ".glb", "other files"});
+}
+
+TEST_F(FractureCommand, MakesSolidPiecesByEveryMethodAndSharesTheirInsideFaces) {
+  const double whole = solidProperties(readObj(mesh_)).volume;
+  const std::vector<std::vector<std::string>> methods{
+      {"voronoi"},  {"breadth_first"},           {"curvature"},
+      {"spectral"}, {"breadth_first", "--flat"}, {"voronoi", "--impact", "1,0,0.5"}};
+  for (std::vector<std::string> method : methods) {
+    method.insert(method.begin(),
+                  {"--solid", "--pieces", "9", "--no-picture", "--overwrite", "-o", file("solid.glb"), "--method"});
+    const json told = facts(method);
+    ASSERT_EQ(told["pieces"].size(), 9u) << method[8];
+    double volume = 0;
+    for (const json& piece : told["pieces"]) {
+      EXPECT_EQ(piece["closed"], true) << method[8];
+      EXPECT_EQ(piece["connected"], true) << method[8];
+      EXPECT_GT(piece["volume"], 0.0) << method[8];
+      volume += piece["volume"].get<double>();
+    }
+    EXPECT_NEAR(volume, whole, 1e-6 * whole) << method[8];
+    // Every inside triangle is there again, reversed, at exactly the same place of the file.
+    std::map<std::array<Vec3f, 3>, int, bool (*)(const std::array<Vec3f, 3>&, const std::array<Vec3f, 3>&)> faces(
+        [](const auto& a, const auto& b) {
+          const auto flat = [](const auto& t) {
+            return std::array{t[0].x, t[0].y, t[0].z, t[1].x, t[1].y, t[1].z, t[2].x, t[2].y, t[2].z};
+          };
+          return flat(a) < flat(b);
+        });
+    for (const FrameBody& piece : piecesFromGlb(textOf(file("solid.glb")), "solid.glb"))
+      for (std::size_t t = 0; t < piece.mesh->triangles.size(); ++t) {
+        if (piece.mesh->materialNames.at(piece.mesh->materials.at(t)) != "inside") continue;
+        std::array<Vec3f, 3> corners;
+        for (int c = 0; c < 3; ++c) corners[c] = Vec3f(piece.pose * piece.mesh->vertices[piece.mesh->triangles[t][c]]);
+        const auto lowest = [](const Vec3f& a, const Vec3f& b) {
+          return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+        };
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), lowest), corners.end());
+        const bool turned = lowest(corners[2], corners[1]);
+        if (turned) std::swap(corners[1], corners[2]);
+        faces[corners] += turned ? -1 : 1;
+      }
+    EXPECT_GT(faces.size(), 8u);
+    for (const auto& [corners, sum] : faces) ASSERT_EQ(sum, 0) << method[8];
+  }
 }
 
 }  // namespace

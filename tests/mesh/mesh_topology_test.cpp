@@ -96,5 +96,20 @@ TEST(TriangleMesh, BoundsHoldEveryVertexAndMoveWithThem) {
   EXPECT_EQ(bounds(mesh).upper, (Vec3d{0.5, 2, 0.75}));
 }
 
+TEST(MeshTopology, BoxesThatShareAnEdgeAreWatertightButNotAManifold) {
+  TriangleMesh boxes = boxMesh({1, 1, 1}, false);
+  const TriangleMesh other = boxes;
+  const auto shift = static_cast<std::uint32_t>(boxes.vertices.size());
+  for (const Vec3d& v : other.vertices) boxes.vertices.push_back(v + Vec3d(1, 1, 0));
+  for (const auto& [a, b, c] : other.triangles) boxes.triangles.push_back({a + shift, b + shift, c + shift});
+  const TriangleMesh joined = welded(boxes);
+  EXPECT_FALSE(isClosed(joined));
+  EXPECT_TRUE(isWatertight(joined));
+  TriangleMesh open = joined;
+  open.triangles.pop_back();
+  EXPECT_FALSE(isWatertight(open));
+  EXPECT_FALSE(isWatertight({}));
+}
+
 }  // namespace
 }  // namespace brisance

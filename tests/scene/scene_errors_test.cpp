@@ -78,7 +78,8 @@ TEST(SceneErrors, WhatMakesNoSenseWithoutAValueIsAskedFor) {
   expectLine("[[bodies]]\nname = 'a'\nshape = { width = 1 }\n",
              "s.toml:3: bodies.a.shape.type: is missing, must be given: which kind");
   expectLine("[[bodies]]\nname = 'a'\nshape = 'mesh'\n",
-             "s.toml:3: bodies.a.shape.file: is missing, must be given: Wavefront OBJ, relative to the scene file");
+             "s.toml:3: bodies.a.shape.file: is missing, must be given: OBJ, PLY, STL or binary glTF (.glb), "
+             "relative to the scene file");
 }
 
 TEST(SceneErrors, BrokenTomlIsNamedByItsLine) {
@@ -223,6 +224,17 @@ TEST(SceneErrors, SceneryAndWhatMovesAreToldApart) {
       "s.toml:4: bodies.a.blocks_gas: must be false: only solid scenery (moves = false, no rectangle) blocks gas");
   expectLine(body + "shape = 'box'\nfracture.pieces = 13\n",
              "s.toml:4: bodies.a.fracture.pieces: must be at most the 12 triangles of the shape, got 13");
+}
+
+TEST(SceneErrors, WhatAMethodCannotBreakIsRefused) {
+  const std::string box = "[[bodies]]\nname = 'a'\nshape = 'box'\n";
+  expectLine(box + "fracture = { method = 'breadth_first_thesis', pieces = 6 }\n",
+             "s.toml:4: bodies.a.fracture.pieces: must be a power of two for breadth_first_thesis, got 6");
+  expectLine(
+      box + "fracture = { method = 'breadth_first_thesis', pieces = 8, solid = true }\n",
+      "s.toml:4: bodies.a.fracture.method: must be another for solid pieces: breadth_first_thesis cuts triangles");
+  expectLine(box + "fracture = { method = { type = 'curvature', split = 'list' }, pieces = 2 }\n",
+             "s.toml:4: bodies.a.fracture.method.split: unknown key; must be one of type, weights, parts, inside");
 }
 
 TEST(SceneErrors, PicturesNumbersAgree) {

@@ -146,6 +146,33 @@ TEST(SceneFile, EveryTableLandsInItsSettings) {
   EXPECT_EQ(std::get<SolidColour>(scene.render.materials.at("iron").diffuse).colour, Vec3f(.1f, .2f, .3f));
 }
 
+TEST(SceneFile, BodiesBreakByEveryMethodWithItsOwnKnobs) {
+  const auto fractureOf = [](const std::string& fracture) {
+    return parsed("[[bodies]]\nname = 'a'\nshape = 'sphere'\nfracture = { pieces = 8, " + fracture + " }\n")
+        .simulation.bodies[0]
+        .fracture;
+  };
+  EXPECT_TRUE(std::holds_alternative<BreadthFirst>(fractureOf("refine = true").method));
+  const FractureSettings curved =
+      fractureOf("method = { type = 'curvature', weights = 'raw', parts = 2, inside = 'smallest' }, solid = true");
+  EXPECT_EQ(std::get<Curvature>(curved.method).weights, CurvatureWeights::raw);
+  EXPECT_EQ(std::get<Curvature>(curved.method).parts, 2);
+  EXPECT_EQ(std::get<Curvature>(curved.method).inside, InsideParts::smallest);
+  EXPECT_TRUE(curved.solid.enabled);
+  EXPECT_EQ(std::get<Spectral>(fractureOf("method = { type = 'spectral', weights = 'length' }").method).weights,
+            EdgeWeights::length);
+  EXPECT_EQ(
+      std::get<BreadthFirstThesis>(fractureOf("method = { type = 'breadth_first_thesis', split = 'level' }").method)
+          .split,
+      ThesisSplit::level);
+  const FractureSettings cells =
+      fractureOf("method = { type = 'voronoi', impact = [0, 0.5, 0], crowding = 3 }, cells_per_piece = 4, flat = true");
+  EXPECT_EQ(std::get<Voronoi>(cells.method).impact, Vec3d(0, 0.5, 0));
+  EXPECT_EQ(std::get<Voronoi>(cells.method).crowding, 3);
+  EXPECT_EQ(cells.solid.cellsPerPiece, 4);
+  EXPECT_TRUE(cells.solid.flat);
+}
+
 TEST(SceneFile, PanesHaveOutlinesAndPatterns) {
   const auto paneOf = [](const std::string& shape) {
     const std::string text = "[scene]\nmetres_per_unit = 0.5\n[[bodies]]\nname = 'a'\nshape = " + shape + "\n";
