@@ -3,6 +3,7 @@
 
 #include "broken_body.h"
 #include "fracture/partition.h"
+#include "mesh/convex_hull.h"
 #include "mesh/mesh_topology.h"
 #include "run_record.h"
 
@@ -43,6 +44,10 @@ Json pieceJson(const Piece& piece, bool solid, const Json& neighbours) {
              {"volume", solid ? piece.properties.volume : 0.0},
              {"centroid", toJson(piece.place)},
              {"inertia", toJson(piece.properties.inertia)}};
+  const TriangleMesh hull = convexHull(piece.mesh.vertices);
+  facts["hull"] = {{"vertices", hull.vertices.size()},
+                   {"triangles", hull.triangles.size()},
+                   {"volume", solidProperties(hull).volume}};
   facts["neighbours"] = neighbours;
   return facts;
 }

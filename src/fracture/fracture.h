@@ -18,8 +18,7 @@ struct Bond {
 struct Piece {
   TriangleMesh mesh;  ///< about its own centroid; closed where the body was made solid
   MassProperties properties;
-  Vec3d place;          ///< of the centroid in the body's coordinates [m]
-  TriangleMesh hull{};  ///< convex, closed, about the same origin; empty where nobody asked
+  Vec3d place;  ///< of the centroid in the body's coordinates [m]
 };
 
 struct FracturedBody {

@@ -9,7 +9,6 @@
 #include "fracture/separate_bodies.h"
 #include "fracture/solid_parts.h"
 #include "fracture/solid_seeds.h"
-#include "mesh/convex_hull.h"
 #include "mesh/mesh_topology.h"
 
 namespace brisance {
@@ -125,12 +124,11 @@ class SolidBreaker {
 };
 
 /// About its own centroid, but for rounding that keeps sums with `place` exact.
-Piece settled(TriangleMesh mesh, double step, Hulls hulls) {
+Piece settled(TriangleMesh mesh, double step) {
   const MassProperties properties = solidProperties(mesh);
-  Piece piece{std::move(mesh), properties, onSteps(properties.centroid, step), {}};
+  Piece piece{std::move(mesh), properties, onSteps(properties.centroid, step)};
   recenter(piece.mesh, piece.place);
   piece.properties.centroid = {};
-  if (hulls == Hulls::build) piece.hull = convexHull(piece.mesh.vertices);
   return piece;
 }
 
@@ -155,14 +153,14 @@ TriangleMesh facingOutwards(TriangleMesh mesh) {
 }
 
 /// Pieces of a cut, moved to their centroids.
-FracturedBody bodyOf(const TriangleMesh& mesh, const SolidCut& cut, double step, Hulls hulls) {
+FracturedBody bodyOf(const TriangleMesh& mesh, const SolidCut& cut, double step) {
   FracturedBody body;
   body.solid = true;
   body.eigenvalues = cut.eigenvalues;
   std::vector<TriangleMesh> meshes = pieceMeshes(mesh, cut.complex, cut.atoms, cut.pieces);
   body.pieces.resize(meshes.size());
   parallelFor(0, static_cast<std::int64_t>(meshes.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t p = begin; p < end; ++p) body.pieces[p] = settled(std::move(meshes[p]), step, hulls);
+    for (std::int64_t p = begin; p < end; ++p) body.pieces[p] = settled(std::move(meshes[p]), step);
   });
   body.bonds = bondsOf(pieceContacts(cut.atoms, cut.pieces), body.pieces);
   return body;
@@ -179,8 +177,7 @@ void append(FracturedBody& all, FracturedBody part) {
 }
 
 /// Bodies that overlap one another, each cut for itself.
-FracturedBody cutSeparately(const TriangleMesh& mesh, const SolidSurface& surface, const FractureSettings& settings,
-                            Hulls hulls) {
+FracturedBody cutSeparately(const TriangleMesh& mesh, const SolidSurface& surface, const FractureSettings& settings) {
   const std::vector<TriangleMesh> bodies = separateBodies(mesh, surface);
   const std::vector<int> share = piecesOfBodies(bodies, settings.pieces);
   FracturedBody all;
@@ -191,18 +188,18 @@ FracturedBody cutSeparately(const TriangleMesh& mesh, const SolidSurface& surfac
     ownSettings.pieces = share[b];
     const auto cut = bodies.size() > 1 ? SolidBreaker(bodies[b], own, ownSettings).run() : std::nullopt;
     if (!cut) throw InputError("solid: the mesh must not cross itself: a part of it does, and would leave pieces open");
-    append(all, bodyOf(bodies[b], *cut, own.step, hulls));
+    append(all, bodyOf(bodies[b], *cut, own.step));
   }
   return all;
 }
 
 }  // namespace
 
-FracturedBody fractureSolid(const TriangleMesh& input, const FractureSettings& settings, Hulls hulls) {
+FracturedBody fractureSolid(const TriangleMesh& input, const FractureSettings& settings) {
   const TriangleMesh mesh = facingOutwards(input);
   const SolidSurface surface = solidSurface(mesh);
   const auto cut = SolidBreaker(mesh, surface, settings).run();
-  return cut ? bodyOf(mesh, *cut, surface.step, hulls) : cutSeparately(mesh, surface, settings, hulls);
+  return cut ? bodyOf(mesh, *cut, surface.step) : cutSeparately(mesh, surface, settings);
 }
 
 }  // namespace brisance

@@ -5,9 +5,6 @@
 
 namespace brisance {
 
-/// Whether pieces get their convex hulls too.
-enum class Hulls { none, build };
-
 /// Closed, oriented pieces, each in one part, whose volumes add up to the mesh's. Voronoi: the cells of seeded points;
 /// every other method divides the graph of many small cells (solid.cellsPerPiece for each piece), whose faces are as
 /// strong as they are large (`curvature`: times the strength of the surface near them), and fuses each part;
@@ -18,6 +15,6 @@ enum class Hulls { none, build };
 /// their sense reversed, and different for vertices that are not one. Inside faces have the material "inside", outside
 /// ones all that the mesh carries. Throws InputError if the mesh is not closed and oriented, encloses nothing, or one
 /// body crosses itself so that a piece would stay open.
-FracturedBody fractureSolid(const TriangleMesh& mesh, const FractureSettings& settings, Hulls hulls = Hulls::none);
+FracturedBody fractureSolid(const TriangleMesh& mesh, const FractureSettings& settings);
 
 }  // namespace brisance
