@@ -23,8 +23,9 @@ struct ConjugateGradient {
 };
 using PressureSolver = std::variant<ConjugateGradient>;
 
-/// open: p = 0 on the face, the gas flows through. no_slip, free_slip: a wall.
-enum class FaceKind { open, noSlip, freeSlip };
+/// open: p = 0 on the face, the gas flows through. no_slip, free_slip: a wall. periodic: the gas comes in again at the
+/// opposite face, which is periodic too.
+enum class FaceKind { open, noSlip, freeSlip, periodic };
 /// Order of faces everywhere: x lower, x upper, y lower, y upper, z lower, z upper.
 using Faces = std::array<FaceKind, 6>;
 
