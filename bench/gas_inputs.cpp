@@ -27,10 +27,8 @@ SolidStamp threeSolids(const FluidSettings& settings) {
 
 CellField sourceField(const SolidStamp& solid) {
   const Vec3i n = solid.inside.size;
-  const std::pair<Vec3d, std::array<double, 2>> clouds[] = {{{.5, .3, .5}, {.08, 1}},
-                                                            {{.32, .42, .61}, {.05, -.6}},
-                                                            {{.7, .55, .4}, {.06, .8}},
-                                                            {{.45, .7, .35}, {.1, .5}}};
+  const std::pair<Vec3d, std::array<double, 2>> clouds[] = {
+      {{.5, .3, .5}, {.08, 1}}, {{.32, .42, .61}, {.05, -.6}}, {{.7, .55, .4}, {.06, .8}}, {{.45, .7, .35}, {.1, .5}}};
   const Random random(1, Stream::test);
   CellField b{CellLayout(n)};
   double sum = 0, gas = 0;
@@ -59,17 +57,24 @@ CellField sourceField(const SolidStamp& solid) {
 double trueResidual(const SolidStamp& solid, const Faces& faces, const CellField& b, const CellField& x) {
   const PressureOperator op = makePressureOperator(solid, faces);
   const Vec3i n = op.cells;
-  const std::int64_t row = x.layout.row, plane = x.layout.plane;
+  const std::int64_t strides[3] = {1, x.layout.row, x.layout.plane};
   double wrong = 0, all = 0;
   for (int k = 0; k < n.z; ++k)
     for (int j = 0; j < n.y; ++j)
       for (int i = 0; i < n.x; ++i) {
         if (solid.inside(i, j, k)) continue;
         const float* at = x.row(j, k) + i;
-        const auto flow = [&](float share, std::int64_t to) { return share == 0 ? 0 : share * (double(*at) - at[to]); };
-        const double image = flow(op.share.u(i, j, k), -1) + flow(op.share.u(i + 1, j, k), 1) +
-                             flow(op.share.v(i, j, k), -row) + flow(op.share.v(i, j + 1, k), row) +
-                             flow(op.share.w(i, j, k), -plane) + flow(op.share.w(i, j, k + 1), plane);
+        const Vec3i place{i, j, k};
+        // to the cell `step` further along an axis, or around a periodic box
+        const auto flow = [&](float share, int axis, int step) {
+          if (share == 0) return 0.0;
+          const bool around = place[axis] + step < 0 || place[axis] + step >= n[axis];
+          const bool periodic = around && faces[2 * axis] == FaceKind::periodic;
+          return share * (double(*at) - at[strides[axis] * (periodic ? step - step * n[axis] : step)]);
+        };
+        const double image = flow(op.share.u(i, j, k), 0, -1) + flow(op.share.u(i + 1, j, k), 0, 1) +
+                             flow(op.share.v(i, j, k), 1, -1) + flow(op.share.v(i, j + 1, k), 1, 1) +
+                             flow(op.share.w(i, j, k), 2, -1) + flow(op.share.w(i, j, k + 1), 2, 1);
         const double source = b(i, j, k);
         wrong += (source - image) * (source - image);
         all += source * source;

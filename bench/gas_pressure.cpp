@@ -1,5 +1,6 @@
 // The pressure alone: b -> x. Rows Pressure/Input/Size/Who, each with its threads and its true relative residual.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <chrono>
 #include <functional>
@@ -116,8 +117,7 @@ void peer(benchmark::State& state, int cells, bool solids, MakePeer make) {
 }
 
 void addPeer(const std::string& input, const std::string& who, int cells, bool solids, MakePeer make) {
-  benchmark::RegisterBenchmark(("Pressure/" + input + "/" + std::to_string(cells) + "/" + who).c_str(), peer, cells,
-                               solids, make)
+  benchmark::RegisterBenchmark(fmt::format("Pressure/{}/{}/{}", input, cells, who).c_str(), peer, cells, solids, make)
       ->Unit(benchmark::kMillisecond)
       ->UseManualTime();
 }
@@ -131,7 +131,7 @@ void add(const std::string& name, Arguments... arguments) {
 const bool registered = [] {
   constexpr int allThreads = 0;
   for (const int cells : {64, 128, 256}) {
-    const std::string size = "/" + std::to_string(cells) + "/";
+    const std::string size = fmt::format("/{}/", cells);
     add("Pressure/Box" + size + "Brisance", fastPoisson, cells, FaceKind::noSlip, false, allThreads);
     add("Pressure/Box" + size + "BrisanceOneThread", fastPoisson, cells, FaceKind::noSlip, false, 1);
     add("Pressure/OpenBox" + size + "Brisance", fastPoisson, cells, FaceKind::open, false, allThreads);

@@ -1,6 +1,7 @@
 #include "fluid/multigrid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -29,29 +30,28 @@ Row rowOf(const MultigridLevel& level, const CellField& x, int j, int k) {
 }
 
 /// sum of coupling x over the neighbours of cell i
-inline float coupled(const Row& r, int i) {
+inline float coupled(Row r, int i) {
   const float* x = r.x + i;
   return ((r.u[i] * x[-1] + r.u[i + 1] * x[1]) + (r.v[i] * x[-r.dy] + r.vUpper[i] * x[r.dy])) +
          (r.w[i] * x[-r.dz] + r.wUpper[i] * x[r.dz]);
 }
 /// A x at cell i
-inline float applied(const Row& r, int i) {
+inline float applied(Row r, int i) {
   const float* x = r.x + i;
   const float c = x[0];
-  return ((r.u[i] * (c - x[-1]) + r.u[i + 1] * (c - x[1])) +
-          (r.v[i] * (c - x[-r.dy]) + r.vUpper[i] * (c - x[r.dy]))) +
+  return ((r.u[i] * (c - x[-1]) + r.u[i + 1] * (c - x[1])) + (r.v[i] * (c - x[-r.dy]) + r.vUpper[i] * (c - x[r.dy]))) +
          (r.w[i] * (c - x[-r.dz]) + r.wUpper[i] * (c - x[r.dz]));
 }
 /// The same where all faces are open.
-inline float coupledOpen(const Row& r, const float (&open)[3], int i) {
+inline float coupledOpen(Row r, Couplings open, int i) {
   const float* x = r.x + i;
-  return (open[0] * (x[-1] + x[1]) + open[1] * (x[-r.dy] + x[r.dy])) + open[2] * (x[-r.dz] + x[r.dz]);
+  return (open.x * (x[-1] + x[1]) + open.y * (x[-r.dy] + x[r.dy])) + open.z * (x[-r.dz] + x[r.dz]);
 }
-inline float appliedOpen(const Row& r, const float (&open)[3], int i) {
+inline float appliedOpen(Row r, Couplings open, int i) {
   const float* x = r.x + i;
   const float c = x[0];
-  return (open[0] * ((c - x[-1]) + (c - x[1])) + open[1] * ((c - x[-r.dy]) + (c - x[r.dy]))) +
-         open[2] * ((c - x[-r.dz]) + (c - x[r.dz]));
+  return (open.x * ((c - x[-1]) + (c - x[1])) + open.y * ((c - x[-r.dy]) + (c - x[r.dy]))) +
+         open.z * ((c - x[-r.dz]) + (c - x[r.dz]));
 }
 
 bool isPlain(const MultigridLevel& level, int j, int k) {
@@ -68,36 +68,75 @@ void splitRow(const MultigridLevel& level, int j, int k, const General& general,
   general(n - 1, n);
 }
 
+/// next for cells of one parity, old for the others. By bits: a condition would keep the loop from being vectorised,
+/// since the compiler may not compute a number in vain that could trap.
+inline float everyOther(float next, float old, int i, int parity) {
+  const std::uint32_t taken = static_cast<std::uint32_t>((i + parity) & 1) - 1u;
+  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(next) & taken) |
+                              (std::bit_cast<std::uint32_t>(old) & ~taken));
+}
+
+/// What relaxation reads besides: cells of `parity` are to change.
+struct RelaxTask {
+  const float *b, *inverse;
+  int parity;
+};
+
+/// Writes value(i) over every other x[i]. In two loops, for in one the compiler would see x[i] depend on x[i - 1],
+/// though only where it is not changed.
+template <class Value>
+void replaceEveryOther(int begin, int end, int parity, float* x, const Value& value) {
+  constexpr int block = 256;
+  float next[block];
+  for (int start = begin; start < end; start += block) {
+    const int count = std::min(block, end - start);
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) next[i] = value(start + i);
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) x[start + i] = everyOther(next[i], x[start + i], start + i, parity);
+  }
+}
+
+void relaxSpan(Row r, RelaxTask task, int begin, int end, float* x) {
+  replaceEveryOther(begin, end, task.parity, x, [=](int i) { return (task.b[i] + coupled(r, i)) * task.inverse[i]; });
+}
+
+void relaxOpenSpan(Row r, Couplings open, RelaxTask task, int begin, int end, float* x) {
+  const float inverse = 1 / ((2 * open.x + 2 * open.y) + 2 * open.z);
+  replaceEveryOther(begin, end, task.parity, x, [=](int i) { return (task.b[i] + coupledOpen(r, open, i)) * inverse; });
+}
+
 /// Gauss-Seidel on every other cell of a row. A cell of the other colour is computed too, and kept as it was.
 void relaxRow(MultigridLevel& level, int j, int k, int colour) {
   const Row r = rowOf(level, level.x, j, k);
   float* x = level.x.row(j, k);
-  const float* b = level.b.row(j, k);
-  const float* inverse = level.inverseDiagonal.row(j, k);
-  const int parity = (j + k + colour) & 1;
-  const float openInverse = 1 / ((2 * level.open[0] + 2 * level.open[1]) + 2 * level.open[2]);
+  const RelaxTask task{level.b.row(j, k), level.inverseDiagonal.row(j, k), (j + k + colour) & 1};
   splitRow(
-      level, j, k,
-      [&](int begin, int end) {
+      level, j, k, [&](int begin, int end) { relaxSpan(r, task, begin, end, x); },
+      [&](int begin, int end) { relaxOpenSpan(r, level.open, task, begin, end, x); });
+}
+
+/// out = A x
+void applySpan(Row r, int begin, int end, float* out) {
 #pragma GCC ivdep
-        for (int i = begin; i < end; ++i) {
-          const float next = (b[i] + coupled(r, i)) * inverse[i];
-          x[i] = (i & 1) == parity ? next : x[i];
-        }
-      },
-      [&](int begin, int end) {
+  for (int i = begin; i < end; ++i) out[i] = applied(r, i);
+}
+
+void applyOpenSpan(Row r, Couplings open, int begin, int end, float* out) {
 #pragma GCC ivdep
-        for (int i = begin; i < end; ++i) {
-          const float next = (b[i] + coupledOpen(r, level.open, i)) * openInverse;
-          x[i] = (i & 1) == parity ? next : x[i];
-        }
-      });
+  for (int i = begin; i < end; ++i) out[i] = appliedOpen(r, open, i);
+}
+
+void applyRow(const MultigridLevel& level, const CellField& x, int j, int k, float* out) {
+  const Row r = rowOf(level, x, j, k);
+  splitRow(
+      level, j, k, [&](int begin, int end) { applySpan(r, begin, end, out); },
+      [&](int begin, int end) { applyOpenSpan(r, level.open, begin, end, out); });
 }
 
 void startRow(MultigridLevel& level, int j, int k, int colour) {
   float* x = level.x.row(j, k);
-  const float* b = level.b.row(j, k);
-  const float* inverse = level.inverseDiagonal.row(j, k);
+  const float *b = level.b.row(j, k), *inverse = level.inverseDiagonal.row(j, k);
   const int parity = (j + k + colour) & 1, n = level.x.layout.cells.x;
   for (int i = 0; i < n; ++i) x[i] = (i & 1) == parity ? b[i] * inverse[i] : 0.0f;
 }
@@ -208,23 +247,14 @@ void relaxFromZero(MultigridLevel& level) {
 
 void computeResidual(MultigridLevel& level) {
   const CellLayout& layout = level.x.layout;
-  parallelFor(0, layout.cells.z, 2, [&](std::int64_t first, std::int64_t last) {
+  parallelFor(0, layout.cells.z, grainOf(layout), [&](std::int64_t first, std::int64_t last) {
     for (int k = static_cast<int>(first); k < last; ++k)
       runWide([&] {
         for (int j = 0; j < layout.cells.y; ++j) {
-          const Row r = rowOf(level, level.x, j, k);
           const float* b = level.b.row(j, k);
           float* out = level.residual.row(j, k);
-          splitRow(
-              level, j, k,
-              [&](int begin, int end) {
-#pragma GCC ivdep
-                for (int i = begin; i < end; ++i) out[i] = b[i] - applied(r, i);
-              },
-              [&](int begin, int end) {
-#pragma GCC ivdep
-                for (int i = begin; i < end; ++i) out[i] = b[i] - appliedOpen(r, level.open, i);
-              });
+          applyRow(level, level.x, j, k, out);
+          for (int i = 0; i < layout.cells.x; ++i) out[i] = b[i] - out[i];
         }
       });
   });
@@ -233,19 +263,9 @@ void computeResidual(MultigridLevel& level) {
 double applyLevel(const MultigridLevel& level, const CellField& direction, CellField& product) {
   const CellLayout& layout = direction.layout;
   return sumRows(layout, [&](float(&sums)[lanes], int j, int k) {
-    const Row r = rowOf(level, direction, j, k);
     float* out = product.row(j, k);
-    splitRow(
-        level, j, k,
-        [&](int begin, int end) {
-#pragma GCC ivdep
-          for (int i = begin; i < end; ++i) out[i] = applied(r, i);
-        },
-        [&](int begin, int end) {
-#pragma GCC ivdep
-          for (int i = begin; i < end; ++i) out[i] = appliedOpen(r, level.open, i);
-        });
-    addProducts(sums, r.x, out, layout.roundedRow());
+    applyRow(level, direction, j, k, out);
+    addProducts(sums, direction.row(j, k), out, layout.roundedRow());
   });
 }
 }  // namespace detail

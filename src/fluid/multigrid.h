@@ -18,11 +18,14 @@ struct AxisInterpolation {
 };
 
 /// sum over faces of coupling (x_cell - x_behind) = b. Couplings lie at the lower face of their cell.
+/// Couplings along the three axes.
+using Couplings = Vec3f;
+
 struct MultigridLevel {
   CellField coupling[3];
-  CellField inverseDiagonal;                ///< 0 in solids
-  float open[3];                            ///< coupling of a wholly open inner face, by axis
-  std::vector<std::uint8_t> plainRow;       ///< by j + ny k: all faces of the row but those of its end cells are open
+  CellField inverseDiagonal;           ///< 0 in solids
+  Couplings open{};                    ///< of wholly open inner faces
+  std::vector<std::uint8_t> plainRow;  ///< by j + ny k: all faces of the row but those of its end cells are open
   CellField x, b, residual;
   std::array<AxisInterpolation, 3> coarser;  ///< to the next level
 };
@@ -45,7 +48,8 @@ class Multigrid {
 
 namespace detail {
 std::vector<MultigridLevel> makeLevels(const SolidStamp& solid, const Faces& faces);
-/// Gauss-Seidel in four colours, and in the opposite order: even planes before odd ones, in each the cells of even i + j
+/// Gauss-Seidel in four colours, and in the opposite order: even planes before odd ones, in each the cells of even i +
+/// j
 /// + k before the others.
 void relaxForward(MultigridLevel& level);
 void relaxBackward(MultigridLevel& level);

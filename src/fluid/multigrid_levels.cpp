@@ -49,7 +49,8 @@ AxisInterpolation interpolationAlong(int n, FaceKind lower, FaceKind upper) {
 MultigridLevel coarserLevel(const MultigridLevel& fine) {
   const Vec3i n = fine.coupling[0].layout.cells;
   Vec3i cells;
-  for (int axis = 0; axis < 3; ++axis) cells[axis] = (n[axis] + fine.coarser[axis].ratio - 1) / fine.coarser[axis].ratio;
+  for (int axis = 0; axis < 3; ++axis)
+    cells[axis] = (n[axis] + fine.coarser[axis].ratio - 1) / fine.coarser[axis].ratio;
   MultigridLevel level;
   const CellLayout layout(cells);
   for (int axis = 0; axis < 3; ++axis) {
@@ -79,7 +80,6 @@ void finishLevel(MultigridLevel& level) {
   const Vec3i n = layout.cells;
   for (CellField* field : {&level.inverseDiagonal, &level.x, &level.b, &level.residual}) *field = CellField(layout);
   level.plainRow.assign(static_cast<std::size_t>(n.y) * n.z, 0);
-  const float openSum = 2 * ((level.open[0] + level.open[1]) + level.open[2]);
   parallelFor(0, n.z, 4, [&](std::int64_t first, std::int64_t last) {
     for (int k = static_cast<int>(first); k < last; ++k)
       for (int j = 0; j < n.y; ++j) {
@@ -96,7 +96,7 @@ void finishLevel(MultigridLevel& level) {
             if (inner && pairs[axis] != 2 * level.open[axis]) plain = false;
         }
         const bool border = j == 0 || k == 0 || j == n.y - 1 || k == n.z - 1;
-        level.plainRow[j + static_cast<std::size_t>(n.y) * k] = plain && !border && openSum > 0;
+        level.plainRow[j + static_cast<std::size_t>(n.y) * k] = plain && !border;
       }
   });
 }
@@ -208,8 +208,7 @@ void addCorrection(const MultigridLevel& coarse, MultigridLevel& fine) {
         const float z[2] = {alongZ.near[k], alongZ.far[k]}, y[2] = {alongY.near[j], alongY.far[j]};
         const float *a = coarse.x.row(J[0], K[0]), *b = coarse.x.row(J[1], K[0]), *c = coarse.x.row(J[0], K[1]),
                     *d = coarse.x.row(J[1], K[1]);
-        for (int i = 0; i < m.x; ++i)
-          row[i] = z[0] * (y[0] * a[i] + y[1] * b[i]) + z[1] * (y[0] * c[i] + y[1] * d[i]);
+        for (int i = 0; i < m.x; ++i) row[i] = z[0] * (y[0] * a[i] + y[1] * b[i]) + z[1] * (y[0] * c[i] + y[1] * d[i]);
         prolongRow(alongX, row, m.x, fine.inverseDiagonal.row(j, k), fine.x.row(j, k), n.x);
       }
   });
