@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "base/vector_path.h"
 #include "fluid/multigrid.h"
 
 namespace brisance::detail {
@@ -181,18 +182,20 @@ void restrictResidual(const MultigridLevel& fine, MultigridLevel& coarse) {
   parallelFor(0, m.z, grainOf(coarse.x.layout), [&](std::int64_t firstPlane, std::int64_t lastPlane) {
     GhostedRow sums(n.x);
     float* sum = sums.data();
-    for (int K = static_cast<int>(firstPlane); K < lastPlane; ++K)
-      for (int J = 0; J < m.y; ++J) {
-        std::fill_n(sum, n.x, 0.0f);
-        const FineSamples planes = reaching(alongZ, K), rows = reaching(alongY, J);
-        for (int k = planes.first; k < planes.last; ++k)
-          for (int j = rows.first; j < rows.last; ++j) {
-            const float share = weight(alongZ, k, K) * weight(alongY, j, J);
-            const float* r = fine.residual.row(j, k);
-            for (int i = 0; i < n.x; ++i) sum[i] += share * r[i];
-          }
-        restrictRow(alongX, sum, n.x, m.x, coarse.b.row(J, K));
-      }
+    runWide([&] {
+      for (int K = static_cast<int>(firstPlane); K < lastPlane; ++K)
+        for (int J = 0; J < m.y; ++J) {
+          std::fill_n(sum, n.x, 0.0f);
+          const FineSamples planes = reaching(alongZ, K), rows = reaching(alongY, J);
+          for (int k = planes.first; k < planes.last; ++k)
+            for (int j = rows.first; j < rows.last; ++j) {
+              const float share = weight(alongZ, k, K) * weight(alongY, j, J);
+              const float* r = fine.residual.row(j, k);
+              for (int i = 0; i < n.x; ++i) sum[i] += share * r[i];
+            }
+          restrictRow(alongX, sum, n.x, m.x, coarse.b.row(J, K));
+        }
+    });
   });
 }
 
@@ -202,15 +205,18 @@ void addCorrection(const MultigridLevel& coarse, MultigridLevel& fine) {
   parallelFor(0, n.z, grainOf(fine.x.layout), [&](std::int64_t firstPlane, std::int64_t lastPlane) {
     GhostedRow mixed(m.x);
     float* row = mixed.data();
-    for (int k = static_cast<int>(firstPlane); k < lastPlane; ++k)
-      for (int j = 0; j < n.y; ++j) {
-        const int K[2] = {k / alongZ.ratio, alongZ.other[k]}, J[2] = {j / alongY.ratio, alongY.other[j]};
-        const float z[2] = {alongZ.near[k], alongZ.far[k]}, y[2] = {alongY.near[j], alongY.far[j]};
-        const float *a = coarse.x.row(J[0], K[0]), *b = coarse.x.row(J[1], K[0]), *c = coarse.x.row(J[0], K[1]),
-                    *d = coarse.x.row(J[1], K[1]);
-        for (int i = 0; i < m.x; ++i) row[i] = z[0] * (y[0] * a[i] + y[1] * b[i]) + z[1] * (y[0] * c[i] + y[1] * d[i]);
-        prolongRow(alongX, row, m.x, fine.inverseDiagonal.row(j, k), fine.x.row(j, k), n.x);
-      }
+    runWide([&] {
+      for (int k = static_cast<int>(firstPlane); k < lastPlane; ++k)
+        for (int j = 0; j < n.y; ++j) {
+          const int K[2] = {k / alongZ.ratio, alongZ.other[k]}, J[2] = {j / alongY.ratio, alongY.other[j]};
+          const float z[2] = {alongZ.near[k], alongZ.far[k]}, y[2] = {alongY.near[j], alongY.far[j]};
+          const float *a = coarse.x.row(J[0], K[0]), *b = coarse.x.row(J[1], K[0]), *c = coarse.x.row(J[0], K[1]),
+                      *d = coarse.x.row(J[1], K[1]);
+          for (int i = 0; i < m.x; ++i)
+            row[i] = z[0] * (y[0] * a[i] + y[1] * b[i]) + z[1] * (y[0] * c[i] + y[1] * d[i]);
+          prolongRow(alongX, row, m.x, fine.inverseDiagonal.row(j, k), fine.x.row(j, k), n.x);
+        }
+    });
   });
 }
 
