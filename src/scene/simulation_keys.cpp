@@ -20,9 +20,12 @@ constexpr std::string_view edgeWeightNames[] = {"unit", "length"};
 
 void describeFaces(KeyVisitor& v, Faces& faces) {
   for (std::size_t i = 0; i < faces.size(); ++i)
-    visitChoice(v, {faceKeys[i], "", anyValue, "open lets gas through; no_slip and free_slip are walls; periodic, on both faces of an axis: gas comes in again "
-                    "opposite"}, faceNames,
-                faces[i]);
+    visitChoice(v,
+                {faceKeys[i], "", anyValue,
+                 "open lets gas through; no_slip and free_slip are walls; periodic, on both faces of an axis: gas "
+                 "comes in again "
+                 "opposite"},
+                faceNames, faces[i]);
 }
 
 void describeAdvection(KeyVisitor& v, DonorCell& scheme) {
@@ -32,7 +35,8 @@ void describeAdvection(KeyVisitor& v, DonorCell& scheme) {
 constexpr const char* giveUp = "after which it gives up and says so";
 
 void describeVelocityTolerance(KeyVisitor& v, double& tolerance) {
-  visit(v, {"tolerance", "", {1e-14, 0.1}, "of the final velocity's divergence, relative to the one there was to remove"},
+  visit(v,
+        {"tolerance", "", {1e-14, 0.1}, "of the final velocity's divergence, relative to the one there was to remove"},
         tolerance);
 }
 
@@ -235,7 +239,7 @@ void describeGas(KeyVisitor& v, SceneDraft& draft) {
   FluidSettings& gas = draft.scene.simulation.fluid;
   describeLattice(v, draft.gas, {"nx, ny, nz", "5.1, 5.3"});
   visitTable(v, "faces", "what the faces of the box are", gas.faces, describeFaces);
-  visit(v, {"remove_mean_source", "", anyValue, "with all faces walled: let the gas that has no way out vanish"},
+  visit(v, {"remove_mean_source", "", anyValue, "in a sealed space: let the gas that has no way out vanish"},
         gas.removeMeanSource);
   v.enter({"advection", "", anyValue, "how the flow carries things"}, true);
   visitAlternatives(v, advectionNames, gas.advection, describeAdvection);

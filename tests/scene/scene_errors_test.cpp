@@ -65,7 +65,7 @@ TEST(SceneErrors, NumbersThatAreNoneAreRefusedEverywhere) {
 
 TEST(SceneErrors, AChoiceListsWhatThereIs) {
   expectLine("[gas]\nfaces = { x_lower = 'shut' }\n",
-             "s.toml:2: gas.faces.x_lower: must be one of open, no_slip, free_slip, got \"shut\"");
+             "s.toml:2: gas.faces.x_lower: must be one of open, no_slip, free_slip, periodic, got \"shut\"");
   expectLine("[gas]\npressure = 'multi_grid'\n",
              "s.toml:2: gas.pressure.type: must be one of auto, fast_poisson, multigrid, conjugate_gradient, got "
              "\"multi_grid\"");
