@@ -8,39 +8,12 @@
 #include "base/parallel.h"
 #include "fluid/fluid_step.h"
 #include "fluid/solid_fractions.h"
+#include "gas_inputs.h"
 
 namespace brisance {
 namespace {
 
-constexpr double boxSide = 1;  // [m]
-
-FluidSettings boxOf(int cells) {
-  FluidSettings settings;
-  settings.cells = {cells, cells, cells};
-  settings.cellSize = boxSide / cells;
-  return settings;
-}
-
-/// An axis-aligned box as two triangles a side, counter-clockwise seen from outside.
-TriangleMesh blockMesh(const Vec3d& lower, const Vec3d& upper) {
-  TriangleMesh mesh;
-  for (int corner = 0; corner < 8; ++corner)
-    mesh.vertices.push_back(
-        {corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y, corner & 4 ? upper.z : lower.z});
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
-/// Three blocks, one of them a wall thinner than a cell.
-SolidStamp threeSolids(const FluidSettings& settings) {
-  std::vector<MovingSolid> solids;
-  for (const auto& [lower, upper] :
-       {std::pair(Vec3d(.1, .1, .1), Vec3d(.3, .5, .3)), std::pair(Vec3d(.6, 0, .6), Vec3d(.9, .3, .9)),
-        std::pair(Vec3d(.2, .2, .699), Vec3d(.5, .9, .701))})
-    solids.push_back({std::make_shared<const TriangleMesh>(blockMesh(lower, upper)), {}, {}, {}});
-  return stampSolids(settings, solids);
-}
+using namespace bench;
 
 /// A ball of gas that expands in the middle of the box.
 void addSource(FluidState& gas) {
@@ -64,24 +37,6 @@ void count(benchmark::State& state, const FluidState& gas, int iterations) {
   state.counters["threads"] = threadCount();
   state.counters["divergence"] = divergenceError(gas);
   state.counters["iterations"] = iterations;
-}
-
-/// From gas at rest, so that every iteration solves the same problem.
-void solvePressure(benchmark::State& state, int cells, bool solids) {
-  const FluidSettings settings = boxOf(cells);
-  const FluidState atRest = sourceIn(settings, solids ? threeSolids(settings) : stampSolids(settings, {}));
-  FluidState gas = atRest;
-  PressureScratch scratch;
-  PressureReport report;
-  constexpr double dt = 0.01;  // [s]
-  for (auto _ : state) {
-    state.PauseTiming();
-    gas.velocity = atRest.velocity;
-    gas.pressure = atRest.pressure;
-    state.ResumeTiming();
-    report = project(gas, settings, dt, scratch);
-  }
-  count(state, gas, report.iterations);
 }
 
 void stepGas(benchmark::State& state, int cells) {
@@ -117,11 +72,7 @@ void add(const std::string& name, Arguments... arguments) {
 }
 
 const bool registered = [] {
-  for (const int cells : {64, 128}) {
-    const std::string size = std::to_string(cells);
-    add("Pressure/Box/" + size + "/Brisance", solvePressure, cells, false);
-    add("Pressure/Solids/" + size + "/Brisance", solvePressure, cells, true);
-  }
+  add("Step/DonorCell/64/Brisance", stepGas, 64);
   add("Step/DonorCell/128/Brisance", stepGas, 128);
   add("Copy/Array/512M/Memory", copyArray);
   return true;

@@ -19,8 +19,10 @@ struct Balance {
 
 struct PressureReport {
   int iterations = 0;
-  double residual = 0;  ///< relative to the right-hand side, as the solver claims it
+  double residual = 0;  ///< relative to the right-hand side
   bool converged = true;
+  int sealedPockets = 0;     ///< spaces of gas that no open face of the box reaches
+  double removedSource = 0;  ///< [m3/s] net source in them that was let go: sum of magnitudes
 };
 
 /// One frame of simulation; sums over its sub-steps, and the worst of them where a sum makes no sense.

@@ -161,7 +161,7 @@ void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, A
 
 Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient,
                      double dt, AdvectionScratch& scratch) {
-  padScalar(scratch.scalar, scalar, gas.velocity, ambient);
+  padScalar(scratch.scalar, scalar, gas.velocity, settings.faces, ambient);
   scratch.newScalar = scalar;
   const float upwind = static_cast<float>(donorWeight(settings)), dtOverH = static_cast<float>(dt / settings.cellSize);
   parallelFor(0, scalar.size.z, 2, [&](std::int64_t first, std::int64_t last) {

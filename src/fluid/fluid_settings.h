@@ -15,16 +15,39 @@ struct DonorCell {
 };
 using AdvectionScheme = std::variant<DonorCell>;
 
-/// Thesis Algorithm 1, corrected, to a residual relative to the right-hand side.
+/// Whichever of the solvers below suits the solids in the gas.
+struct AutomaticSolver {
+  double tolerance = 1e-4;  ///< of the final velocity's divergence, as below
+  friend bool operator==(const AutomaticSolver&, const AutomaticSolver&) = default;
+};
+
+/// Directly by trigonometric transforms where the box is empty; with solids, conjugate gradients preconditioned by that.
+/// The tolerance is that of the divergence of the final velocity, relative to the one there was to remove, and the
+/// velocity is corrected until it holds (or until velocities in single precision cannot hold it better).
+struct FastPoisson {
+  double tolerance = 1e-4;
+  int maxIterations = 200;
+  friend bool operator==(const FastPoisson&, const FastPoisson&) = default;
+};
+
+/// Conjugate gradients preconditioned by geometric multigrid, for solids of much surface; tolerance as above.
+struct MultigridSolver {
+  double tolerance = 1e-4;
+  int maxIterations = 200;
+  friend bool operator==(const MultigridSolver&, const MultigridSolver&) = default;
+};
+
+/// Thesis Algorithm 1, corrected, in double precision, to a residual relative to the right-hand side.
 struct ConjugateGradient {
   double tolerance = 1e-6;
   int maxIterations = 4000;
   friend bool operator==(const ConjugateGradient&, const ConjugateGradient&) = default;
 };
-using PressureSolver = std::variant<ConjugateGradient>;
+using PressureSolver = std::variant<AutomaticSolver, FastPoisson, MultigridSolver, ConjugateGradient>;
 
-/// open: p = 0 on the face, the gas flows through. no_slip, free_slip: a wall.
-enum class FaceKind { open, noSlip, freeSlip };
+/// open: p = 0 on the face, the gas flows through. no_slip, free_slip: a wall. periodic: the gas comes in again at the
+/// opposite face, which is periodic too.
+enum class FaceKind { open, noSlip, freeSlip, periodic };
 /// Order of faces everywhere: x lower, x upper, y lower, y upper, z lower, z upper.
 using Faces = std::array<FaceKind, 6>;
 
@@ -33,7 +56,7 @@ struct FluidSettings {
   Vec3d corner;                   ///< [m] lower corner of the box
   double cellSize = 1.0 / 64;     ///< [m]
   Faces faces{};                  ///< all open
-  bool removeMeanSource = false;  ///< all faces walled and a net source: let the mean go, instead of refusing
+  bool removeMeanSource = false;  ///< a sealed space and a net source in it: let the mean go, instead of refusing
 
   AdvectionScheme advection;
   PressureSolver pressure;

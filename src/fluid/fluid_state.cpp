@@ -18,6 +18,21 @@ void stir(FluidState& gas, const Vec3d& wind, double deviation, std::uint64_t se
     index += values.size();
   }
 }
+/// The two faces of a periodic box at which an axis begins again are one.
+void joinPeriodicFaces(MacVelocity& velocity, const Faces& faces) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (faces[2 * axis] != FaceKind::periodic) continue;
+    Grid3<float>& speed = velocity.component(axis);
+    for (int k = 0; k < speed.size.z; ++k)
+      for (int j = 0; j < speed.size.y; ++j)
+        for (int i = 0; i < speed.size.x; ++i) {
+          Vec3i from{i, j, k};
+          if (from[axis] + 1 < speed.size[axis]) continue;
+          from[axis] = 0;
+          speed(i, j, k) = speed(from.x, from.y, from.z);
+        }
+  }
+}
 }  // namespace
 
 FluidState makeFluid(const FluidSettings& settings, const SolidStamp& solid, std::uint64_t seed) {
@@ -28,6 +43,7 @@ FluidState makeFluid(const FluidSettings& settings, const SolidStamp& solid, std
   gas.temperature = cellGrid(settings, static_cast<float>(settings.ambientTemperature));
   gas.solid = solid;
   if (settings.startVelocity > 0 || !(settings.wind == Vec3d{})) stir(gas, settings.wind, settings.startVelocity, seed);
+  joinPeriodicFaces(gas.velocity, settings.faces);
   return gas;
 }
 

@@ -13,6 +13,7 @@ struct SolidStamp {
   Grid3<std::int32_t>
       pocket;  ///< 0: gas that reaches an open face of the box; n > 0: the n-th sealed pocket; -1: solid
   int pocketCount = 0;
+  bool empty = true;  ///< nothing stands in the gas: every face inside the box is wholly open
   friend bool operator==(const SolidStamp&, const SolidStamp&) = default;
 };
 

@@ -58,8 +58,11 @@ void addForces(FluidState& gas, const FluidSettings& settings, double dt) {
     if (settings.force[axis] != 0) accelerate(gas, axis, dt, [&](int, int, int) { return settings.force[axis]; });
   if (settings.buoyancy == 0) return;
   const Grid3<float>& T = gas.temperature;
+  const bool periodic = settings.faces[2] == FaceKind::periodic;
+  const int last = T.size.y - 1;
   accelerate(gas, 1, dt, [&](int i, int j, int k) {
-    const float below = T(i, std::max(j - 1, 0), k), above = T(i, std::min(j, T.size.y - 1), k);
+    const float below = T(i, j > 0 ? j - 1 : periodic ? last : 0, k);
+    const float above = T(i, j <= last ? j : periodic ? 0 : last, k);
     return settings.buoyancy * (0.5 * (below + above) - settings.ambientTemperature);
   });
 }

@@ -32,6 +32,13 @@ void forGhosts(Grid3<float>& padded, int face, const At& at) {
     }
 }
 
+/// Ghosts beyond a periodic face: the samples inside the opposite one. `shared`: the samples of both faces are one.
+void wrap(Grid3<float>& padded, int face, bool shared) {
+  const int axis = face / 2, samples = padded.size[axis] - 2;
+  const std::int64_t around = (face % 2 ? -1 : 1) * padded.stride(axis) * (shared ? samples - 1 : samples);
+  forGhosts(padded, face, [&](float& ghost, float, int, int) { ghost = *(&ghost + around); });
+}
+
 /// Whether gas comes in through a face of the box beside a sample (p, q) of a scalar, or of the velocity component
 /// along `staggered`, which lies between two cells and takes the mean of their speeds.
 class Inflow {
@@ -65,7 +72,9 @@ void PaddedVelocity::fill(const MacVelocity& velocity, const Faces& faces, const
   for (int axis = 0; axis < 3; ++axis) {
     copyInside(component[axis], velocity.component(axis));
     for (int face = 0; face < 6; ++face) {
-      if (faces[face] == FaceKind::open) {
+      if (faces[face] == FaceKind::periodic) {
+        wrap(component[axis].values, face, face / 2 == axis);
+      } else if (faces[face] == FaceKind::open) {
         const Inflow inflow(velocity, face, axis);
         const float outer = static_cast<float>(wind[axis]);
         forGhosts(component[axis].values, face,
@@ -78,9 +87,14 @@ void PaddedVelocity::fill(const MacVelocity& velocity, const Faces& faces, const
   }
 }
 
-void padScalar(PaddedGrid& padded, const Grid3<float>& scalar, const MacVelocity& velocity, float ambient) {
+void padScalar(PaddedGrid& padded, const Grid3<float>& scalar, const MacVelocity& velocity, const Faces& faces,
+               float ambient) {
   copyInside(padded, scalar);
   for (int face = 0; face < 6; ++face) {
+    if (faces[face] == FaceKind::periodic) {
+      wrap(padded.values, face, false);
+      continue;
+    }
     const Inflow inflow(velocity, face);
     forGhosts(padded.values, face,
               [&](float& ghost, float inner, int p, int q) { ghost = inflow.at(p, q) ? ambient : inner; });

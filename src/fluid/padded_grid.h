@@ -21,7 +21,9 @@ struct PaddedVelocity {
   void fill(const MacVelocity& velocity, const Faces& faces, const Vec3d& wind);
 };
 
-/// A scalar with ghosts: where gas comes in through an open face `ambient`, elsewhere as inside.
-void padScalar(PaddedGrid& padded, const Grid3<float>& scalar, const MacVelocity& velocity, float ambient);
+/// A scalar with ghosts: where gas comes in through an open face `ambient`, beyond a periodic one as inside the
+/// opposite, elsewhere as inside.
+void padScalar(PaddedGrid& padded, const Grid3<float>& scalar, const MacVelocity& velocity, const Faces& faces,
+               float ambient);
 
 }  // namespace brisance

@@ -91,9 +91,47 @@ void closeAroundSolidCells(SolidStamp& stamp) {
           }
 }
 
+bool isWall(FaceKind kind) { return kind == FaceKind::noSlip || kind == FaceKind::freeSlip; }
+
+/// Calls visit(lower, upper) with the shares of the two faces at the ends of each row of cells along an axis.
+template <class Visit>
+void forEnds(Grid3<float>& open, int axis, const Visit& visit) {
+  const int b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
+  const std::int64_t far = (open.size[axis] - 1) * open.stride(axis);
+  for (int q = 0; q < open.size[c]; ++q)
+    for (int p = 0; p < open.size[b]; ++p) {
+      const std::int64_t at = p * open.stride(b) + q * open.stride(c);
+      visit(open.values[at], open.values[at + far]);
+    }
+}
+
+/// Two faces that are one because the box is periodic let through what both do.
+void joinPeriodicFaces(const Faces& faces, MacVelocity& openShare) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (faces[2 * axis] == FaceKind::periodic)
+      forEnds(openShare.component(axis), axis,
+              [](float& lower, float& upper) { lower = upper = std::min(lower, upper); });
+}
+
+/// Whether every face is wholly open but for the box's walls.
+bool isEmpty(const Faces& faces, const MacVelocity& openShare) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Grid3<float>& open = openShare.component(axis);
+    const Vec3i size = open.size;
+    Vec3i first, last = size;
+    if (isWall(faces[2 * axis])) ++first[axis];
+    if (isWall(faces[2 * axis + 1])) --last[axis];
+    for (int k = first.z; k < last.z; ++k)
+      for (int j = first.y; j < last.y; ++j)
+        for (int i = first.x; i < last.x; ++i)
+          if (open(i, j, k) != 1) return false;
+  }
+  return true;
+}
+
 void closeBoxFaces(const Faces& faces, MacVelocity& openShare) {
   for (int face = 0; face < 6; ++face) {
-    if (faces[face] == FaceKind::open) continue;
+    if (!isWall(faces[face])) continue;
     const int axis = face / 2;
     Grid3<float>& open = openShare.component(axis);
     for (int k = 0; k < open.size.z; ++k)
@@ -106,7 +144,7 @@ void closeBoxFaces(const Faces& faces, MacVelocity& openShare) {
 }
 
 /// Fills everything that gas from `seed` reaches with `number`; true if that includes an open face of the box.
-bool flood(SolidStamp& stamp, std::int64_t seed, int number) {
+bool flood(SolidStamp& stamp, const Faces& faces, std::int64_t seed, int number) {
   Grid3<std::int32_t>& pocket = stamp.pocket;
   bool reachesOutside = false;
   std::vector<std::int64_t> stack{seed};
@@ -121,11 +159,13 @@ bool flood(SolidStamp& stamp, std::int64_t seed, int number) {
       for (int side = 0; side < 2; ++side) {
         const Grid3<float>& open = stamp.openShare.component(axis);
         if (open.values[open.index(place[0], place[1], place[2]) + side * open.stride(axis)] == 0) continue;
-        if (place[axis] == (side ? pocket.size[axis] - 1 : 0)) {
+        const bool atEnd = place[axis] == (side ? pocket.size[axis] - 1 : 0);
+        if (atEnd && faces[2 * axis + side] != FaceKind::periodic) {
           reachesOutside = true;
           continue;
         }
-        const std::int64_t next = cell + (side ? 1 : -1) * pocket.stride(axis);
+        const std::int64_t step = (side ? 1 : -1) * pocket.stride(axis);
+        const std::int64_t next = atEnd ? cell - step * (pocket.size[axis] - 1) : cell + step;
         if (pocket.values[next] != unvisited) continue;
         pocket.values[next] = number;
         stack.push_back(next);
@@ -134,13 +174,13 @@ bool flood(SolidStamp& stamp, std::int64_t seed, int number) {
   return reachesOutside;
 }
 
-void findPockets(SolidStamp& stamp) {
+void findPockets(SolidStamp& stamp, const Faces& faces) {
   for (std::int64_t cell = 0; cell < stamp.inside.count(); ++cell)
     stamp.pocket.values[cell] = stamp.inside.values[cell] ? solidCell : unvisited;
   std::vector<int> finalNumber{0};  // by flood number: 0 where it reaches the outside
   for (std::int64_t cell = 0; cell < stamp.inside.count(); ++cell)
     if (stamp.pocket.values[cell] == unvisited) {
-      const bool outside = flood(stamp, cell, static_cast<int>(finalNumber.size()));
+      const bool outside = flood(stamp, faces, cell, static_cast<int>(finalNumber.size()));
       finalNumber.push_back(outside ? 0 : ++stamp.pocketCount);
     }
   for (std::int32_t& number : stamp.pocket.values)
@@ -165,7 +205,9 @@ SolidStamp stampSolids(const FluidSettings& settings, std::span<const MovingSoli
     }
   closeAroundSolidCells(stamp);
   closeBoxFaces(settings.faces, stamp.openShare);
-  findPockets(stamp);
+  joinPeriodicFaces(settings.faces, stamp.openShare);
+  findPockets(stamp, settings.faces);
+  stamp.empty = isEmpty(settings.faces, stamp.openShare);
   return stamp;
 }
 

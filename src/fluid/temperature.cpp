@@ -7,7 +7,8 @@
 namespace brisance {
 
 namespace {
-/// c_k times the Laplacian, through open inner faces only: Neumann at the box (thesis 2.4.3) and at solids.
+/// c_k times the Laplacian, through open inner faces only: Neumann at the box (thesis 2.4.3) and at solids. Around a
+/// periodic box.
 void conduct(FluidState& gas, const FluidSettings& settings, double dt, Grid3<float>& scratch) {
   scratch = gas.temperature;
   const Grid3<float>& T = scratch;
@@ -22,9 +23,14 @@ void conduct(FluidState& gas, const FluidSettings& settings, double dt, Grid3<fl
           for (int axis = 0; axis < 3; ++axis) {
             const Grid3<float>& open = gas.solid.openShare.component(axis);
             const std::int64_t face = open.index(i, j, k), step = T.stride(axis);
-            if (place[axis] > 0) sum += open.values[face] * (T.values[here - step] - T.values[here]);
-            if (place[axis] + 1 < T.size[axis])
-              sum += open.values[face + open.stride(axis)] * (T.values[here + step] - T.values[here]);
+            const bool periodic = settings.faces[2 * axis] == FaceKind::periodic;
+            const std::int64_t around = step * (T.size[axis] - 1);
+            const bool atLower = place[axis] == 0, atUpper = place[axis] + 1 == T.size[axis];
+            if (!atLower || periodic)
+              sum += open.values[face] * (T.values[atLower ? here + around : here - step] - T.values[here]);
+            if (!atUpper || periodic)
+              sum += open.values[face + open.stride(axis)] *
+                     (T.values[atUpper ? here - around : here + step] - T.values[here]);
           }
           gas.temperature.values[here] += share * sum;
         }

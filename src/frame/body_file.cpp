@@ -98,17 +98,20 @@ std::string contentHash(const std::vector<FrameBody>& bodies) {
 std::string reportToJson(const Frame& frame) {
   const StepReport& report = frame.report;
   const PressureReport& pressure = report.pressure;
-  return asText(
-      {{"frame", frame.index},
-       {"time", frame.time},
-       {"substeps", report.substeps},
-       {"courant", report.courant},
-       {"divergence", report.divergence},
-       {"pressure",
-        {{"iterations", pressure.iterations}, {"residual", pressure.residual}, {"converged", pressure.converged}}},
-       {"volume", toJson(report.volume)},
-       {"heat", toJson(report.heat)},
-       {"stage_seconds", report.stageSeconds}});
+  return asText({{"frame", frame.index},
+                 {"time", frame.time},
+                 {"substeps", report.substeps},
+                 {"courant", report.courant},
+                 {"divergence", report.divergence},
+                 {"pressure",
+                  {{"iterations", pressure.iterations},
+                   {"residual", pressure.residual},
+                   {"converged", pressure.converged},
+                   {"sealed_pockets", pressure.sealedPockets},
+                   {"removed_source", pressure.removedSource}}},
+                 {"volume", toJson(report.volume)},
+                 {"heat", toJson(report.heat)},
+                 {"stage_seconds", report.stageSeconds}});
 }
 
 StepReport reportFromJson(const std::string& text, const std::string& fileName) {
@@ -119,7 +122,8 @@ StepReport reportFromJson(const std::string& text, const std::string& fileName) 
     report.courant = root.at("courant").get<double>();
     report.divergence = root.at("divergence").get<double>();
     report.pressure = {pressure.at("iterations").get<int>(), pressure.at("residual").get<double>(),
-                       pressure.at("converged").get<bool>()};
+                       pressure.at("converged").get<bool>(), pressure.value("sealed_pockets", 0),
+                       pressure.value("removed_source", 0.0)};
     report.volume = balanceFrom(root.at("volume"));
     report.heat = balanceFrom(root.at("heat"));
     report.stageSeconds = root.at("stage_seconds").get<std::map<std::string, double>>();

@@ -109,7 +109,7 @@ Lengths, that is keys in m, count in scene units of `scene.metres_per_unit` metr
 Every other unit is SI. Times are simulated seconds but for `camera.keys[].time`, which is seconds of film.
 `name[]` is an array of tables, `[[name]]` in the file; `--set` reaches its elements by name or by number from 0:
 `--set bodies.pane.fracture.pieces=32`. A table with a `type` may be given as the name of the type alone:
-`pressure = "conjugate_gradient"`.
+`pressure = "fast_poisson"`.
 
 `scene.quality` changes these defaults, and nothing else:
 

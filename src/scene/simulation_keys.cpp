@@ -6,10 +6,10 @@
 namespace brisance {
 namespace {
 
-constexpr std::string_view faceNames[] = {"open", "no_slip", "free_slip"};
+constexpr std::string_view faceNames[] = {"open", "no_slip", "free_slip", "periodic"};
 constexpr const char* faceKeys[] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
 constexpr std::string_view advectionNames[] = {"donor_cell"};
-constexpr std::string_view pressureNames[] = {"conjugate_gradient"};
+constexpr std::string_view pressureNames[] = {"auto", "fast_poisson", "multigrid", "conjugate_gradient"};
 constexpr std::string_view quadratureNames[] = {"area_quadrature", "vertex_sum"};
 constexpr std::string_view shapeNames[] = {"sphere", "box", "rectangle", "mesh", "pane"};
 constexpr std::string_view outlineNames[] = {"rectangle", "disc", "polygon"};
@@ -22,18 +22,39 @@ constexpr std::string_view edgeWeightNames[] = {"unit", "length"};
 
 void describeFaces(KeyVisitor& v, Faces& faces) {
   for (std::size_t i = 0; i < faces.size(); ++i)
-    visitChoice(v, {faceKeys[i], "", anyValue, "open lets gas through; no_slip and free_slip are walls"}, faceNames,
-                faces[i]);
+    visitChoice(v,
+                {faceKeys[i], "", anyValue,
+                 "open lets gas through; no_slip and free_slip are walls; periodic, on both faces of an axis: gas "
+                 "comes in again "
+                 "opposite"},
+                faceNames, faces[i]);
 }
 
 void describeAdvection(KeyVisitor& v, DonorCell& scheme) {
   visit(v, {"upwind_weight", "", between(0, 1), "0 is central, 1 upwind differences"}, scheme.upwindWeight);
 }
 
+constexpr const char* giveUp = "after which it gives up and says so";
+
+void describeVelocityTolerance(KeyVisitor& v, double& tolerance) {
+  visit(v,
+        {"tolerance", "", {1e-14, 0.1}, "of the final velocity's divergence, relative to the one there was to remove"},
+        tolerance);
+}
+
+void describePressure(KeyVisitor& v, AutomaticSolver& solver) { describeVelocityTolerance(v, solver.tolerance); }
+void describePressure(KeyVisitor& v, FastPoisson& solver) {
+  describeVelocityTolerance(v, solver.tolerance);
+  visit(v, {"max_iterations", "", between(1, 1e6), giveUp}, solver.maxIterations);
+}
+void describePressure(KeyVisitor& v, MultigridSolver& solver) {
+  describeVelocityTolerance(v, solver.tolerance);
+  visit(v, {"max_iterations", "", between(1, 1e6), giveUp}, solver.maxIterations);
+}
 void describePressure(KeyVisitor& v, ConjugateGradient& solver) {
   visit(v, {"tolerance", "", {1e-14, 0.1}, "residual relative to the right-hand side at which it stops"},
         solver.tolerance);
-  visit(v, {"max_iterations", "", between(1, 1e6), "after which it gives up and says so"}, solver.maxIterations);
+  visit(v, {"max_iterations", "", between(1, 1e6), giveUp}, solver.maxIterations);
 }
 
 void describeGasPhysics(KeyVisitor& v, FluidSettings& gas) {
@@ -255,13 +276,14 @@ void describeGas(KeyVisitor& v, SceneDraft& draft) {
   FluidSettings& gas = draft.scene.simulation.fluid;
   describeLattice(v, draft.gas, {"nx, ny, nz", "5.1, 5.3"});
   visitTable(v, "faces", "what the faces of the box are", gas.faces, describeFaces);
-  visit(v, {"remove_mean_source", "", anyValue, "with all faces walled: let the gas that has no way out vanish"},
+  visit(v, {"remove_mean_source", "", anyValue, "in a sealed space: let the gas that has no way out vanish"},
         gas.removeMeanSource);
   v.enter({"advection", "", anyValue, "how the flow carries things"}, true);
   visitAlternatives(v, advectionNames, gas.advection, describeAdvection);
   v.leave();
   v.enter({"pressure", "", anyValue, "how the pressure is solved for"}, true);
-  visitAlternatives(v, pressureNames, gas.pressure, describePressure);
+  visitAlternatives(v, pressureNames, gas.pressure,
+                    [](KeyVisitor& inner, auto& solver) { describePressure(inner, solver); });
   v.leave();
   describeGasPhysics(v, gas);
   visit(v, {"courant", "", {0.01, 10}, "cells that the gas may cross in one sub-step"}, gas.courant);

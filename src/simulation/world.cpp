@@ -31,6 +31,8 @@ void record(const FluidReport& step, StepReport& report) {
   report.pressure.iterations += step.pressure.iterations;
   report.pressure.residual = std::max(report.pressure.residual, step.pressure.residual);
   report.pressure.converged = report.pressure.converged && step.pressure.converged;
+  report.pressure.sealedPockets = std::max(report.pressure.sealedPockets, step.pressure.sealedPockets);
+  report.pressure.removedSource = std::max(report.pressure.removedSource, step.pressure.removedSource);
   report.volume += step.volume;
   report.heat += step.heat;
 }

@@ -42,6 +42,7 @@ TEST(Projection, LeavesAUniformFlowAlone) {
 TEST(Projection, TheDivergenceEqualsItsSourceToTheTolerance) {
   FluidSettings s = box({20, 16, 18});
   s.faces[2] = FaceKind::noSlip;  // a floor
+  s.pressure = ConjugateGradient{1e-6, 4000};
   FluidState gas = gasIn(s);
   randomVelocity(gas);
   setComponent(gas.divergence, [](const Vec3d& p) { return p.x > .4 && p.x < .6 && p.y < .5 ? 30.0 : 0.0; });
@@ -60,7 +61,7 @@ double manufacturedError(int n) {
   s.pressure = ConjugateGradient{1e-10, 4000};
   const PressureOperator op = makePressureOperator(stampSolids(s, {}), s.faces);
   const Vec3i padded{n + 2, n + 2, n + 2};
-  PressureScratch scratch;
+  ConjugateGradientScratch scratch;
   for (Grid3<double>* v : {&scratch.x, &scratch.r, &scratch.d, &scratch.q})
     *v = Grid3<double>(padded, {}, s.cellSize, 0.0);
   const auto exact = [&](int i, int j, int k) {
@@ -150,6 +151,7 @@ TEST(Solids, AWallThinnerThanACellBlocksAndAnOpeningLetsThrough) {
     size[axis] = 0.1 / 16;
     Vec3d place{.5, .5, .5};
     place[axis] = 0.53;
+    s.pressure = AutomaticSolver{1e-7};
     const MovingSolid wall[] = {boxAt(place, size)};
     FluidState gas = gasIn(s, wall);
     gas.divergence(axis == 0 ? 2 : 8, axis == 1 ? 2 : 8, axis == 2 ? 2 : 8) = 50;

@@ -65,9 +65,10 @@ TEST(SceneErrors, NumbersThatAreNoneAreRefusedEverywhere) {
 
 TEST(SceneErrors, AChoiceListsWhatThereIs) {
   expectLine("[gas]\nfaces = { x_lower = 'shut' }\n",
-             "s.toml:2: gas.faces.x_lower: must be one of open, no_slip, free_slip, got \"shut\"");
-  expectLine("[gas]\npressure = 'multigrid'\n",
-             "s.toml:2: gas.pressure.type: must be one of conjugate_gradient, got \"multigrid\"");
+             "s.toml:2: gas.faces.x_lower: must be one of open, no_slip, free_slip, periodic, got \"shut\"");
+  expectLine("[gas]\npressure = 'multi_grid'\n",
+             "s.toml:2: gas.pressure.type: must be one of auto, fast_poisson, multigrid, conjugate_gradient, got "
+             "\"multi_grid\"");
   expectLine("[[lights]]\ntype = 'lamp'\n", "s.toml:2: lights.0.type: must be one of point, sun, fire, got \"lamp\"");
 }
 

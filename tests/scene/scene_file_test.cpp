@@ -26,7 +26,7 @@ size = [2.0, 1.0, 2.0]
 resolution = 30
 faces = { y_lower = "free_slip", z_upper = "no_slip" }
 advection = { type = "donor_cell", upwind_weight = 0.9 }
-pressure = { tolerance = 1e-7 }
+pressure = { type = "multigrid", tolerance = 1e-7 }
 force = [0.1, -0.2, 0.3]
 [explosion]
 burn_rate = 0.21

@@ -1,0 +1,47 @@
+// Poisson's equation in a box without solids, solved directly: h^2 (-div grad) x = b is diagonal in the modes of
+// trigonometric_transform.h (Swarztrauber 1977), its eigenvalues those of the seven-point operator itself.
+#pragma once
+
+#include <functional>
+
+#include "fluid/cell_field.h"
+#include "fluid/trigonometric_transform.h"
+
+namespace brisance {
+
+/// Where sources lie and where the solution is asked for, by plane (constant k) and by 16 rows of a plane.
+struct SparseRegion {
+  std::vector<std::uint8_t> planes;  ///< by k
+  std::vector<std::uint8_t> tiles;   ///< by k * tilesPerPlane + j / 16
+};
+
+class BoxPoisson {
+ public:
+  /// Sizes as LineTransform takes them; pairs of faces that are both periodic or both not.
+  BoxPoisson(const Vec3i& cells, const Faces& faces);
+
+  const CellLayout& layout() const { return layout_; }
+  const Faces& faces() const { return faces_; }
+  int tilesPerPlane() const { return (layout_.cells.y + LineTransform::lanes - 1) / LineTransform::lanes; }
+
+  /// Replaces b by x in three sweeps over the field. With no open face the mean of b is ignored and that of x is 0.
+  void solve(CellField& field) const;
+  /// The same for a b that is zero and an x that is wanted only in a region. `fill` writes b into a plane k of zeros
+  /// (at the given pointer to its cell (0, 0)); what lies outside the region is neither read nor left meaningful.
+  void solve(CellField& field, const SparseRegion& region, const std::function<void(int k, float* plane)>& fill) const;
+
+ private:
+  void toModes(float* plane, const std::uint8_t* tiles, float* lines, float* work) const;
+  void fromModes(float* plane, const std::uint8_t* tiles, float* lines, float* work) const;
+  void solveAlongZ(CellField& field, const std::uint8_t* planes) const;
+  void divide(int i, int j, float* lines) const;
+
+  CellLayout layout_;
+  Faces faces_;
+  LineTransform x_, y_, z_;
+  AlignedFloats eigenvalueX_;  // up to the rounded row
+  std::vector<float> eigenvalueY_, eigenvalueZ_;
+  bool singular_;
+};
+
+}  // namespace brisance

@@ -1,0 +1,67 @@
+// The two ends of the projection: what the velocity still lacks, as a source for the solvers, and the gradient of their
+// solution taken from it. Legend: h the cell size; b = h^2 (phi - div u) = h^2 (-div grad) x; x = dt p.
+#pragma once
+
+#include <cmath>
+
+#include "fluid/cell_field.h"
+#include "fluid/fluid_state.h"
+
+namespace brisance {
+
+/// Difference of the speeds at the faces of a cell: h div u.
+inline double velocityDivergence(const MacVelocity& m, int i, int j, int k) {
+  return (double(m.u(i + 1, j, k)) - m.u(i, j, k)) + (double(m.v(i, j + 1, k)) - m.v(i, j, k)) +
+         (double(m.w(i, j, k + 1)) - m.w(i, j, k));
+}
+
+struct SourceNorms {
+  double source = 0;    ///< |b|
+  double rounding = 0;  ///< what |b| may be merely because velocities are rounded to single precision
+};
+/// Writes b, zero in solids.
+SourceNorms computeSource(const FluidState& gas, CellField& b);
+double fieldNorm(const CellField& field);
+
+/// u += grad x through open faces, and pressure = x / dt, or += where a correction follows (`first` false).
+void subtractGradient(FluidState& gas, const Faces& faces, double dt, const CellField& x, bool first);
+
+/// Sealed pockets, and the net source [m3/s] that was let go in them: the sum of its magnitudes.
+struct PocketSources {
+  int count = 0;
+  double removed = 0;
+};
+
+namespace detail {
+struct PocketSum {
+  double sum = 0, absolute = 0, cells = 0;
+};
+PocketSources judgePockets(const std::vector<PocketSum>& pockets, const FluidState& gas, const FluidSettings& settings,
+                           bool refuse);
+}  // namespace detail
+
+/// A pocket that no open face reaches can only be solved for a source whose sum is zero: takes its mean from at(i, j, k),
+/// b, in all its cells. InputError where that is more than rounding, `refuse` and the settings do not allow it.
+template <class At>
+PocketSources removePocketSources(const FluidState& gas, const FluidSettings& settings, bool refuse, const At& at) {
+  if (gas.solid.pocketCount == 0) return {};
+  std::vector<detail::PocketSum> pockets(gas.solid.pocketCount + 1);
+  const Vec3i n = gas.pressure.size;
+  const auto forPockets = [&](const auto& visit) {
+    for (int k = 0; k < n.z; ++k)
+      for (int j = 0; j < n.y; ++j)
+        for (int i = 0; i < n.x; ++i)
+          if (const int pocket = gas.solid.pocket(i, j, k); pocket > 0) visit(pockets[pocket], at(i, j, k));
+  };
+  forPockets([](detail::PocketSum& pocket, double b) {
+    pocket.sum += b;
+    pocket.absolute += std::abs(b);
+    pocket.cells += 1;
+  });
+  const PocketSources sources = detail::judgePockets(pockets, gas, settings, refuse);
+  using Value = std::remove_reference_t<decltype(at(0, 0, 0))>;
+  forPockets([](const detail::PocketSum& pocket, Value& b) { b = static_cast<Value>(b - pocket.sum / pocket.cells); });
+  return sources;
+}
+
+}  // namespace brisance
