@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
+
+#include "base/check.h"
 
 namespace brisance::gltf {
 
@@ -24,7 +27,11 @@ inline std::string joinChunks(const std::string& json, const std::string& binary
     glb.append(reinterpret_cast<const char*>(&word), sizeof word);
   };
   const std::size_t binaryBytes = binary.empty() ? 0 : chunkHeaderBytes + binary.size();
-  put(magic), put(version), put(headerBytes + chunkHeaderBytes + json.size() + binaryBytes);
+  const std::size_t total = headerBytes + chunkHeaderBytes + json.size() + binaryBytes;
+  if (total > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ExitCode::failed,
+                fmt::format("a binary glTF of {} bytes: must be below 4 GiB; write fewer or coarser pieces", total));
+  put(magic), put(version), put(total);
   put(json.size()), put(jsonChunk);
   glb += json;
   if (binary.empty()) return glb;

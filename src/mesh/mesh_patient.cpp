@@ -22,7 +22,7 @@ class Representatives {
     std::uint32_t nearest = v;
     double least = distance_ * distance_;
     for (int n = 0; n < 27; ++n)
-      for (const std::uint32_t other : membersOf(cell + Vec3d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1))) {
+      for (const std::uint32_t other : membersOf(cell + Vec3d(Vec3i{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1}))) {
         const Vec3d gap = places_[other] - places_[v];
         if (dot(gap, gap) < least || (dot(gap, gap) == least && nearest == v)) nearest = other, least = dot(gap, gap);
       }

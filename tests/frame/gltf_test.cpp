@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "frame/frame_samples.h"
 #include "frame/gltf_export.h"
+#include "mesh/mesh_formats.h"
 
 namespace brisance {
 namespace {
@@ -102,6 +103,25 @@ TEST(Glb, NothingToShowIsStillValid) {
   const auto read = piecesFromGlb(piecesToGlb({body}), "pieces.glb");
   ASSERT_EQ(read.size(), 1u);
   EXPECT_TRUE(read[0].mesh->triangles.empty());
+}
+
+/// What other programs make of pieces: nodes that move them, an outside and an inside that share their vertices.
+TEST(Glb, AReaderOfAnyGltfSeesThePiecesWhereTheyLie) {
+  TriangleMesh mesh = sampleTetrahedron();
+  mesh.materialNames = {"outside", "inside"};
+  mesh.materials = {1, 0, 0, 1};
+  auto body = sampleBodies().front();
+  body.mesh = std::make_shared<const TriangleMesh>(mesh);
+  body.pose = {{1, 2, 3}, {}};
+  const TriangleMesh read = gltfFromBytes(piecesToGlb({body}), "pieces.glb", {});
+  ASSERT_EQ(read.vertices.size(), mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) EXPECT_EQ(read.vertices[v], mesh.vertices[v] + Vec3d(1, 2, 3));
+  EXPECT_EQ(read.materialNames, mesh.materialNames);
+  EXPECT_EQ(read.materials, (std::vector<std::uint16_t>{0, 0, 1, 1}));
+  EXPECT_EQ(read.triangles[0], mesh.triangles[1]);
+  EXPECT_EQ(read.triangles[2], mesh.triangles[0]);
+  EXPECT_EQ(read.normals, mesh.normals);
+  EXPECT_EQ(read.uvs.size(), mesh.uvs.size());
 }
 
 TEST(Glb, EveryTruncationIsRefused) {
