@@ -26,8 +26,9 @@ struct ParticleVolume {
 };
 
 /// `weigh` gives a particle's mass as the picture counts it (0: not drawn); `colourOf` its colour from its temperature
-/// [K]. Particles outside the volume are not drawn; the filter is narrowed at the volume's faces so that no mass leaves
-/// it. Each particle is shared by the eight cell centres around it; the Gaussian is separable.
+/// [K]; both are called from several threads. Particles outside the volume are not drawn; the filter is narrowed at the
+/// volume's faces so that no mass leaves it. Each particle is shared by the eight cell centres around it; the Gaussian
+/// is separable.
 ParticleVolume splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
                               const std::function<float(std::size_t)>& weigh,
                               const std::function<Vec3f(float)>& colourOf);
