@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "particles/burning.h"
@@ -143,6 +144,7 @@ void add(const std::string& name, Arguments... arguments) {
 }
 
 const bool registered = [] {
+  keepFreedMemory();
   add("Particles/Burning/1M/Brisance", burnParticles, false, false);
   add("Particles/BurningAndSorting/1M/Brisance", burnParticles, true, false);
   add("Particles/BurningWithSoot/1M/Brisance", burnParticles, false, true);

@@ -95,7 +95,9 @@ class MemoryArchive : public openvdb::io::Archive {
 /// Bytes of a file of one grid.
 template <class VdbGrid, class T>
 std::string fileOfOne(const SparseGrid<T>& grid, const std::string& name) {
-  std::ostringstream out(std::ios_base::binary);
+  std::string room;
+  room.reserve(grid.bricks.size() * sizeof(grid.bricks[0]) + (1 << 16));  // so that it need not grow
+  std::ostringstream out(std::move(room), std::ios_base::binary | std::ios_base::out);
   MemoryArchive archive;
   archive.setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
   archive.writeTo(out, {makeVdbGrid<VdbGrid>(grid, name)});

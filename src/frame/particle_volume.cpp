@@ -6,7 +6,6 @@
 
 #include "base/parallel.h"
 #include "base/vector_path.h"
-#include "grid/splat_blur.h"
 
 namespace brisance {
 
@@ -137,9 +136,9 @@ BlurTask volumeBlur(const SymmetricFilter& filter, ParticleVolume& volume) {
 
 void splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
                     const std::function<float(std::size_t)>& weigh, const std::function<Vec3f(float)>& colourOf,
-                    ParticleVolume& volume) {
+                    ParticleVolume& volume, SplatScratch& scratch) {
   const SymmetricFilter filter = filterFor(settings);
-  Binned<Point> points;
+  Binned<Point>& points = scratch.points;
   sortDrawn(particles, settings, weigh, colourOf, points);
   const CellBox cells = reachedCells(points, filter.radius(), settings.size);
   layOut(volume.density, cells, settings);
@@ -156,7 +155,8 @@ ParticleVolume splatParticles(const FrameParticles& particles, const ParticleVol
                               const std::function<float(std::size_t)>& weigh,
                               const std::function<Vec3f(float)>& colourOf) {
   ParticleVolume volume;
-  splatParticles(particles, settings, weigh, colourOf, volume);
+  SplatScratch scratch;
+  splatParticles(particles, settings, weigh, colourOf, volume, scratch);
   return volume;
 }
 

@@ -5,6 +5,7 @@
 
 #include "frame/frame.h"
 #include "grid/grid3.h"
+#include "grid/splat_blur.h"
 
 namespace brisance {
 
@@ -33,9 +34,15 @@ ParticleVolume splatParticles(const FrameParticles& particles, const ParticleVol
                               const std::function<float(std::size_t)>& weigh,
                               const std::function<Vec3f(float)>& colourOf);
 
-/// The same into a volume whose memory is used again: much of the time for a fresh one goes into fresh pages.
+/// The particles in the order in which they are summed.
+struct SplatScratch {
+  Binned<SplatPoint<4>> points;
+};
+
+/// The same into a volume whose memory is used again, with the scratch memory: much of the time for fresh ones goes
+/// into fresh pages.
 void splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
                     const std::function<float(std::size_t)>& weigh, const std::function<Vec3f(float)>& colourOf,
-                    ParticleVolume& volume);
+                    ParticleVolume& volume, SplatScratch& scratch);
 
 }  // namespace brisance

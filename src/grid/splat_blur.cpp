@@ -2,14 +2,15 @@
 
 #include <cstring>
 
+#include "base/check.h"
 #include "base/vector_path.h"
 
 namespace brisance {
 
 namespace {
 
-constexpr int vectorFloats = 16;  // the widest vectors hold as many
-constexpr int blockCells = 32;    // cells whose sums stay in registers
+constexpr int vectorFloats = 16;              // the widest vectors hold as many
+constexpr int blockCells = 2 * vectorFloats;  // cells whose sums stay in registers
 
 constexpr int roundUp(int count, int unit) { return (count + unit - 1) / unit * unit; }
 
@@ -17,17 +18,22 @@ constexpr int roundUp(int count, int unit) { return (count + unit - 1) / unit * 
 int padding(int radius) { return roundUp(radius + 1, vectorFloats); }
 int paddedWidth(int cells, int radius) { return roundUp(cells, blockCells) + 2 * padding(radius) + blockCells; }
 
+/// Named as vectors, since the compiler would otherwise run along the filter, one cell at a time.
+typedef float FloatVector __attribute__((vector_size(vectorFloats * sizeof(float)), aligned(sizeof(float)), may_alias));
+
 /// Filtered sums over rows[-radius] .. rows[radius] of `blockCells` cells from `cell` on.
 inline void sumBlock(const float* const* rows, const SymmetricFilter& filter, int cell, float* sums) {
-  float sum[blockCells];
-  const float middle = filter(0);
-  for (int n = 0; n < blockCells; ++n) sum[n] = middle * rows[0][cell + n];
-#pragma GCC unroll 1  // unrolled, the sums would move to the stack
+  const auto* middle = reinterpret_cast<const FloatVector*>(rows[0] + cell);
+  FloatVector first = middle[0] * filter(0), second = middle[1] * filter(0);
   for (int t = 1; t <= filter.radius(); ++t) {
-    const float weight = filter(t), *below = rows[-t] + cell, *above = rows[t] + cell;
-    for (int n = 0; n < blockCells; ++n) sum[n] += weight * (below[n] + above[n]);
+    const auto* below = reinterpret_cast<const FloatVector*>(rows[-t] + cell);
+    const auto* above = reinterpret_cast<const FloatVector*>(rows[t] + cell);
+    first += (below[0] + above[0]) * filter(t);
+    second += (below[1] + above[1]) * filter(t);
   }
-  for (int n = 0; n < blockCells; ++n) sums[n] = sum[n];
+  auto* result = reinterpret_cast<FloatVector*>(sums);
+  result[0] = first;
+  result[1] = second;
 }
 
 /// The sums of a span of cells, from the start of a vector on; `sums` has room for whole blocks.
@@ -72,7 +78,7 @@ class LayerBlur {
         spans_(spans),
         pad_(padding(task.filter.radius())),
         width_(paddedWidth(task.size.x, task.filter.radius())),
-        line_(width_, 0.f),
+        lines_(static_cast<std::size_t>(task.channels) * width_, 0.f),
         empty_(static_cast<std::size_t>(task.channels) * width_, 0.f),
         sums_(width_, 0.f),
         window_(task.filter.radius()) {}
@@ -89,19 +95,26 @@ class LayerBlur {
     return {std::max(0, span.first - radius), std::min(task_.size.x, span.end + radius)};
   }
 
-  void alongX(float* row, CellSpan& used) {
-    const int channels = task_.channels;
-    const CellSpan reached = widened(used);
-    cells_.assign(row + channels * used.first, row + channels * used.end);
-    std::fill(row + channels * used.first, row + channels * used.end, 0.f);
-    for (int t = -task_.filter.radius(); t <= task_.filter.radius(); ++t) window_[t] = line_.data() + pad_ + t;
+  /// From cells side by side to a line for each channel.
+  template <int channels>
+  void takeApart(const float* row, const CellSpan& used) {
     for (int c = 0; c < channels; ++c) {
-      for (int i = used.first; i < used.end; ++i) line_[pad_ + i] = cells_[channels * (i - used.first) + c];
-      sumSpan(window_.middle(), task_.filter, reached, sums_.data());
-      std::memcpy(row + c * width_ + pad_ + reached.first, sums_.data() + reached.first,
-                  sizeof(float) * (reached.end - reached.first));
+      float* line = lines_.data() + c * width_ + pad_;
+      for (int i = used.first; i < used.end; ++i) line[i] = row[channels * i + c];
     }
-    std::fill(line_.begin() + pad_ + used.first, line_.begin() + pad_ + used.end, 0.f);
+  }
+
+  void alongX(float* row, CellSpan& used) {
+    const int channels = task_.channels, radius = task_.filter.radius();
+    const CellSpan reached = widened(used);
+    channels == 4 ? takeApart<4>(row, used) : takeApart<1>(row, used);
+    std::fill(row + channels * used.first, row + channels * used.end, 0.f);
+    for (int c = 0; c < channels; ++c) {
+      float* line = lines_.data() + c * width_ + pad_;
+      for (int t = -radius; t <= radius; ++t) window_[t] = line + t;
+      sumSpan(window_.middle(), task_.filter, reached, row + c * width_ + pad_);  // beyond the span they are not used
+      std::fill(line + used.first, line + used.end, 0.f);
+    }
     used = reached;
   }
 
@@ -126,7 +139,7 @@ class LayerBlur {
   const BlurTask& task_;
   std::vector<CellSpan>& spans_;
   int pad_, width_;
-  AlignedVector<float> line_, empty_, sums_, cells_;
+  AlignedVector<float> lines_, empty_, sums_;
   RowWindow window_;
 };
 
@@ -174,7 +187,7 @@ class ColumnBlur {
     const CellSpan span = inside ? spans_[j + static_cast<std::int64_t>(task_.size.y) * k] : CellSpan{};
     for (int c = 0; c < task_.channels; ++c) {
       float* to = copy(k, c);
-      if (!old.empty()) std::fill(to + old.first, to + old.end, 0.f);
+      if (span.empty() || old.first < span.first || old.end > span.end) std::fill(to + old.first, to + old.end, 0.f);
       if (span.empty()) continue;
       const float* from = task_.memory(c, j, k);
       std::memcpy(to + span.first, from + span.first, sizeof(float) * (span.end - span.first));
@@ -205,6 +218,7 @@ std::int64_t grainOf(int count) { return (count + tasksPerAxis - 1) / tasksPerAx
 }  // namespace
 
 void blurSeparably(const BlurTask& task) {
+  CHECK(task.channels == 1 || task.channels == 4, "{} channels", task.channels);
   std::vector<CellSpan> spans(static_cast<std::size_t>(task.size.y) * task.size.z);
   parallelFor(0, task.size.z, grainOf(task.size.z), [&](std::int64_t first, std::int64_t last) {
     SplatLayer layer(task.size, task.channels, task.filter.radius());

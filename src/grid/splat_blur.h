@@ -64,7 +64,7 @@ class SplatLayer {
 /// the passes in memory of the caller's, and handed out row by row.
 struct BlurTask {
   Vec3i size;
-  int channels = 1;
+  int channels = 1;  ///< 1 or 4
   SymmetricFilter filter;
   /// Puts the field's layer k into an empty layer.
   std::function<void(int k, SplatLayer& layer)> fill;
