@@ -18,20 +18,21 @@ constexpr int roundUp(int count, int unit) { return (count + unit - 1) / unit * 
 int padding(int radius) { return roundUp(radius + 1, vectorFloats); }
 int paddedWidth(int cells, int radius) { return roundUp(cells, blockCells) + 2 * padding(radius) + blockCells; }
 
-/// Named as vectors, since the compiler would otherwise run along the filter, one cell at a time.
+/// Named as vectors, since the compiler would otherwise run along the filter, one cell at a time. Not for `auto`, which
+/// forgets that they need not be aligned.
 typedef float FloatVector __attribute__((vector_size(vectorFloats * sizeof(float)), aligned(sizeof(float)), may_alias));
 
 /// Filtered sums over rows[-radius] .. rows[radius] of `blockCells` cells from `cell` on.
 inline void sumBlock(const float* const* rows, const SymmetricFilter& filter, int cell, float* sums) {
-  const auto* middle = reinterpret_cast<const FloatVector*>(rows[0] + cell);
+  const FloatVector* middle = reinterpret_cast<const FloatVector*>(rows[0] + cell);
   FloatVector first = middle[0] * filter(0), second = middle[1] * filter(0);
   for (int t = 1; t <= filter.radius(); ++t) {
-    const auto* below = reinterpret_cast<const FloatVector*>(rows[-t] + cell);
-    const auto* above = reinterpret_cast<const FloatVector*>(rows[t] + cell);
+    const FloatVector* below = reinterpret_cast<const FloatVector*>(rows[-t] + cell);
+    const FloatVector* above = reinterpret_cast<const FloatVector*>(rows[t] + cell);
     first += (below[0] + above[0]) * filter(t);
     second += (below[1] + above[1]) * filter(t);
   }
-  auto* result = reinterpret_cast<FloatVector*>(sums);
+  FloatVector* result = reinterpret_cast<FloatVector*>(sums);
   result[0] = first;
   result[1] = second;
 }
