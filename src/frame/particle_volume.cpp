@@ -4,44 +4,40 @@
 
 #include <cmath>
 
-#include "base/check.h"
 #include "base/parallel.h"
-#include "frame/splat_rows.h"
+#include "base/vector_path.h"
 
 namespace brisance {
 
 namespace {
 
 constexpr double filterDeviations = 3;  // where the Gaussian ends unless a width is asked for
-constexpr int rowsPerTask = 4;
+constexpr int channels = 4;             // mass, and mass times red, green, blue
+using Point = SplatPoint<channels>;
 
-GaussianFilter filterFor(const ParticleVolumeSettings& settings) {
+SymmetricFilter filterFor(const ParticleVolumeSettings& settings) {
   const double deviation = settings.blur / settings.cellSize;
   const int radius =
       settings.filterSize > 0 ? settings.filterSize / 2 : static_cast<int>(std::ceil(filterDeviations * deviation));
-  return {deviation, radius};
+  return gaussianFilter(deviation, radius);
 }
 
-/// A drawn particle: where it is in cells, (0, 0, 0) being the first cell's centre, and what it adds.
-struct DrawnParticle {
-  Vec3d place;
-  std::array<float, 4> amount;
-};
-
-std::vector<DrawnParticle> drawnParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
-                                          const std::function<float(std::size_t)>& weigh,
-                                          const std::function<Vec3f(float)>& colourOf) {
+/// The drawn particles, their places counted in cells of the asked volume.
+void sortDrawn(const FrameParticles& particles, const ParticleVolumeSettings& settings,
+               const std::function<float(std::size_t)>& weigh, const std::function<Vec3f(float)>& colourOf,
+               Binned<Point>& points) {
   const Vec3d half(.5, .5, .5);
   const Box3 inside{Vec3d() - half, Vec3d(settings.size) - half};
-  std::vector<DrawnParticle> drawn;
-  for (std::size_t n = 0; n < particles.position.size(); ++n) {
+  const auto make = [&](std::int64_t n, Point& point) -> std::int64_t {
     const float mass = weigh(n);
     const Vec3d place = (Vec3d(particles.position[n]) - settings.corner) / settings.cellSize - half;
-    if (!(mass > 0) || !inside.contains(place)) continue;
+    if (!(mass > 0) || !inside.contains(place)) return -1;
     const Vec3f colour = colourOf(particles.temperature[n]) * mass;
-    drawn.push_back({place, {mass, colour.x, colour.y, colour.z}});
-  }
-  return drawn;
+    point.amount = {mass, colour.x, colour.y, colour.z};
+    for (int axis = 0; axis < 3; ++axis) point.share[axis] = axisShare(place[axis], settings.size[axis]);
+    return point.share[2].lower;
+  };
+  sortIntoBins(static_cast<std::int64_t>(particles.position.size()), settings.size.z, make, points);
 }
 
 /// Cells of the asked volume, by their numbers.
@@ -49,50 +45,36 @@ struct CellBox {
   Vec3i lower, size;
 };
 
+/// The cells before which and after which no point of a layer lies.
+struct LayerBounds {
+  Vec3i lower{1 << 30, 1 << 30, 1 << 30}, upper{-1, -1, -1};
+  void include(const LayerBounds& other) {
+    lower = min(lower, other.lower);
+    upper = max(upper, other.upper);
+  }
+};
+
+LayerBounds boundsOf(const Binned<Point>& points, int layers) {
+  std::vector<LayerBounds> ofLayer(layers);
+  parallelFor(0, layers, 4, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t k = first; k < last; ++k)
+      for (const Point& point : points.bin(k)) {
+        const auto& [x, y, z] = point.share;
+        ofLayer[k].include({{x.lower, y.lower, z.lower}, {x.lower + 1, y.lower + 1, z.lower + 1}});
+      }
+  });
+  LayerBounds all;
+  for (const LayerBounds& layer : ofLayer) all.include(layer);
+  return all;
+}
+
 /// What any particle reaches, and one empty cell more, inside the volume.
-CellBox reachedCells(const std::vector<DrawnParticle>& drawn, int radius, const Vec3i& volumeSize) {
-  if (drawn.empty()) return {{0, 0, 0}, {1, 1, 1}};
-  Box3 box;
-  for (const DrawnParticle& particle : drawn) box.include(particle.place);
-  CellBox cells;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int lower = static_cast<int>(std::floor(box.lower[axis])) - radius - 1;
-    const int upper = static_cast<int>(std::floor(box.upper[axis])) + 1 + radius + 1;
-    cells.lower[axis] = std::max(0, lower);
-    cells.size[axis] = std::min(volumeSize[axis] - 1, upper) + 1 - cells.lower[axis];
-  }
-  return cells;
-}
-
-/// Linear between the two cell centres around `place`; `gain` makes up for what the filter would lose at a face.
-AxisShare shareOf(double place, int firstCell, const std::vector<float>& gain) {
-  const int last = static_cast<int>(gain.size()) - 1, cell = static_cast<int>(std::floor(place));
-  const int lower = std::clamp(cell, 0, last), upper = std::clamp(cell + 1, 0, last);
-  const float fraction = static_cast<float>(place - cell);
-  return {lower - firstCell, upper - firstCell, (1 - fraction) * gain[lower], fraction * gain[upper]};
-}
-
-/// Counting sort by row, so that each row sums its splats in the particles' order.
-SortedSplats sortByRow(const std::vector<Splat>& splats, int rows) {
-  SortedSplats sorted{std::vector<Splat>(splats.size()), std::vector<std::uint32_t>(rows + 1, 0)};
-  for (const Splat& splat : splats) ++sorted.rowStart[splat.share[1].lower + 1];
-  for (int j = 0; j < rows; ++j) sorted.rowStart[j + 1] += sorted.rowStart[j];
-  std::vector<std::uint32_t> next = sorted.rowStart;
-  for (const Splat& splat : splats) sorted.splats[next[splat.share[1].lower]++] = splat;
-  return sorted;
-}
-
-SortedSplats makeSplats(const std::vector<DrawnParticle>& drawn, const CellBox& cells, const GaussianFilter& filter,
-                        const Vec3i& volumeSize) {
-  std::array<std::vector<float>, 3> gain;
-  for (int axis = 0; axis < 3; ++axis) gain[axis] = filter.gainInside(volumeSize[axis]);
-  std::vector<Splat> splats(drawn.size());
-  for (std::size_t n = 0; n < drawn.size(); ++n) {
-    splats[n].amount = drawn[n].amount;
-    for (int axis = 0; axis < 3; ++axis)
-      splats[n].share[axis] = shareOf(drawn[n].place[axis], cells.lower[axis], gain[axis]);
-  }
-  return sortByRow(splats, cells.size.y);
+CellBox reachedCells(const Binned<Point>& points, int radius, const Vec3i& volumeSize) {
+  if (points.items.empty()) return {{0, 0, 0}, {1, 1, 1}};
+  const LayerBounds bounds = boundsOf(points, volumeSize.z);
+  const Vec3i rim(radius + 1, radius + 1, radius + 1);
+  const Vec3i lower = max(Vec3i(0, 0, 0), bounds.lower - rim);
+  return {lower, min(volumeSize - Vec3i(1, 1, 1), bounds.upper + rim) - lower + Vec3i(1, 1, 1)};
 }
 
 /// Sets the number of values; fresh memory is asked for in large pages, whose first touch is many times cheaper.
@@ -117,27 +99,64 @@ void layOut(Grid3<T>& grid, const CellBox& cells, const ParticleVolumeSettings& 
   resizeForOverwriting(grid.values, static_cast<std::size_t>(cells.size.x) * cells.size.y * cells.size.z);
 }
 
+/// Density and colour of one row from its blurred sums; none outside the span.
+void finishRow(const CellSpan& span, const float* const* sums, float perVolume, int cells, float* density,
+               Vec3f* colour) {
+  std::fill(density, density + span.first, 0.f);
+  std::fill(colour, colour + span.first, Vec3f());
+  for (int i = span.first; i < span.end; ++i) {
+    const float mass = sums[0][i], perMass = mass > 0 ? 1 / mass : 0;
+    density[i] = mass * perVolume;
+    colour[i] = {sums[1][i] * perMass, sums[2][i] * perMass, sums[3][i] * perMass};
+  }
+  std::fill(density + span.end, density + cells, 0.f);
+  std::fill(colour + span.end, colour + cells, Vec3f());
+}
+
+/// Between the passes of the blur the sums lie where the volume will: mass in the row of the density, the others one
+/// after the other in that of the colour.
+BlurTask volumeBlur(const SymmetricFilter& filter, ParticleVolume& volume) {
+  const Vec3i size = volume.density.size;
+  BlurTask task{.size = size, .channels = channels, .filter = filter, .fill = {}, .memory = {}, .finish = {}};
+  task.memory = [&volume, cells = size.x](int channel, int j, int k) {
+    if (channel == 0) return &volume.density(0, j, k);
+    return &volume.colour(0, j, k).x + static_cast<std::int64_t>(channel - 1) * cells;
+  };
+  const double cell = volume.density.cellSize;
+  const float perVolume = static_cast<float>(1 / (cell * cell * cell));
+  task.finish = [&volume, perVolume, cells = size.x](int j, int k, const CellSpan& span, const float* const* sums) {
+    float* density = &volume.density(0, j, k);
+    Vec3f* colour = &volume.colour(0, j, k);
+    runWide([&] { finishRow(span, sums, perVolume, cells, density, colour); });
+  };
+  return task;
+}
+
 }  // namespace
 
 void splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
                     const std::function<float(std::size_t)>& weigh, const std::function<Vec3f(float)>& colourOf,
-                    ParticleVolume& volume) {
-  const GaussianFilter filter = filterFor(settings);
-  const auto drawn = drawnParticles(particles, settings, weigh, colourOf);
-  const CellBox cells = reachedCells(drawn, filter.radius(), settings.size);
-  const SortedSplats sorted = makeSplats(drawn, cells, filter, settings.size);
+                    ParticleVolume& volume, SplatScratch& scratch) {
+  const SymmetricFilter filter = filterFor(settings);
+  Binned<Point>& points = scratch.points;
+  sortDrawn(particles, settings, weigh, colourOf, points);
+  const CellBox cells = reachedCells(points, filter.radius(), settings.size);
   layOut(volume.density, cells, settings);
   layOut(volume.colour, cells, settings);
-  parallelFor(0, cells.size.y, rowsPerTask, [&](std::int64_t first, std::int64_t last) {
-    fillRows(sorted, filter, static_cast<int>(first), static_cast<int>(last), volume);
-  });
+  std::array<std::vector<float>, 3> gain;
+  for (int axis = 0; axis < 3; ++axis) gain[axis] = filter.gainInside(settings.size[axis]);
+  BlurTask blur = volumeBlur(filter, volume);
+  const LayerSplat<channels> splat{points, gain, cells.lower.x, cells.lower.y};
+  blur.fill = [&](int k, SplatLayer& layer) { splat(k + cells.lower.z, layer); };
+  blurSeparably(blur);
 }
 
 ParticleVolume splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
                               const std::function<float(std::size_t)>& weigh,
                               const std::function<Vec3f(float)>& colourOf) {
   ParticleVolume volume;
-  splatParticles(particles, settings, weigh, colourOf, volume);
+  SplatScratch scratch;
+  splatParticles(particles, settings, weigh, colourOf, volume, scratch);
   return volume;
 }
 

@@ -5,6 +5,7 @@
 
 #include "frame/frame.h"
 #include "grid/grid3.h"
+#include "grid/splat_blur.h"
 
 namespace brisance {
 
@@ -26,15 +27,22 @@ struct ParticleVolume {
 };
 
 /// `weigh` gives a particle's mass as the picture counts it (0: not drawn); `colourOf` its colour from its temperature
-/// [K]. Particles outside the volume are not drawn; the filter is narrowed at the volume's faces so that no mass leaves
-/// it. Each particle is shared by the eight cell centres around it; the Gaussian is separable.
+/// [K]; both are called from several threads. Particles outside the volume are not drawn; the filter is narrowed at the
+/// volume's faces so that no mass leaves it. Each particle is shared by the eight cell centres around it; the Gaussian
+/// is separable.
 ParticleVolume splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
                               const std::function<float(std::size_t)>& weigh,
                               const std::function<Vec3f(float)>& colourOf);
 
-/// The same into a volume whose memory is used again: much of the time for a fresh one goes into fresh pages.
+/// The particles in the order in which they are summed.
+struct SplatScratch {
+  Binned<SplatPoint<4>> points;
+};
+
+/// The same into a volume whose memory is used again, with the scratch memory: much of the time for fresh ones goes
+/// into fresh pages.
 void splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
                     const std::function<float(std::size_t)>& weigh, const std::function<Vec3f(float)>& colourOf,
-                    ParticleVolume& volume);
+                    ParticleVolume& volume, SplatScratch& scratch);
 
 }  // namespace brisance

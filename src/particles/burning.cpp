@@ -15,63 +15,14 @@ std::uint64_t dueBy(const Charge& charge, double time) {
   return static_cast<std::uint64_t>(charge.particles) + static_cast<std::uint64_t>(charge.emissionRate * emitting);
 }
 
-/// The cells within reach of a particle.
-struct Reach {
-  Vec3i lower, upper;  // inclusive
-};
+constexpr std::int64_t grain = 1 << 14;  // particles per task
 
-class Kernel {
- public:
-  Kernel(const Grid3<std::uint8_t>& solid, double radius)
-      : solid_(solid), radius_(std::max(radius, solid.cellSize)), inverseSquare_(1 / (radius_ * radius_)) {}
-
-  Reach reach(const Vec3d& place) const {
-    const Vec3d p = (place - solid_.origin) / solid_.cellSize;
-    const double r = radius_ / solid_.cellSize;
-    Reach result;
-    for (int axis = 0; axis < 3; ++axis) {
-      result.lower[axis] = std::max(0, static_cast<int>(std::ceil(p[axis] - r)));
-      result.upper[axis] = std::min(solid_.size[axis] - 1, static_cast<int>(std::floor(p[axis] + r)));
-    }
-    return result;
-  }
-
-  /// Calls visit(cell number, weight) for the cells of one layer k within reach.
-  template <class Visit>
-  void layer(const Vec3d& place, const Reach& reach, int k, const Visit& visit) const {
-    for (int j = reach.lower.y; j <= reach.upper.y; ++j)
-      for (int i = reach.lower.x; i <= reach.upper.x; ++i) {
-        const Vec3d away = solid_.position(i, j, k) - place;
-        const double inside = 1 - dot(away, away) * inverseSquare_;
-        const std::int64_t cell = solid_.index(i, j, k);
-        if (inside > 0 && !solid_.values[cell]) visit(cell, inside * inside);
-      }
-  }
-
-  double weightSum(const Vec3d& place, const Reach& r) const {
-    double sum = 0;
-    for (int k = r.lower.z; k <= r.upper.z; ++k)
-      layer(place, r, k, [&](std::int64_t, double weight) { sum += weight; });
-    return sum;
-  }
-
- private:
-  const Grid3<std::uint8_t>& solid_;
-  double radius_, inverseSquare_;
-};
-
-struct Deposit {
-  Vec3d place;
-  Reach reach;
-  double perWeight;
-};
-
-/// Per layer of cells, the deposits that reach it, in the particles' order.
-std::vector<std::vector<std::uint32_t>> byLayer(const std::vector<Deposit>& deposits, int layers) {
-  std::vector<std::vector<std::uint32_t>> lists(layers);
-  for (std::uint32_t n = 0; n < deposits.size(); ++n)
-    for (int k = deposits[n].reach.lower.z; k <= deposits[n].reach.upper.z; ++k) lists[k].push_back(n);
-  return lists;
+/// Calls visit(n) for each particle, on several threads.
+template <class Visit>
+void forEachParticle(const ParticleSet& particles, const Visit& visit) {
+  parallelFor(0, static_cast<std::int64_t>(particles.size()), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t n = first; n < last; ++n) visit(static_cast<std::size_t>(n));
+  });
 }
 }  // namespace
 
@@ -93,97 +44,121 @@ void emitFuel(ParticleSet& particles, const ParticleSettings& settings, double t
 }
 
 void ignite(ParticleSet& particles, const BurnSettings& settings) {
-  for (std::size_t n = 0; n < particles.size(); ++n)
-    if (particles.kind[n] == ParticleKind::fuel && particles.temperature[n] >= settings.ignitionTemperature)
-      particles.ignited[n] = 1;
+  forEachParticle(particles, [&](std::size_t n) {
+    const bool hot = particles.temperature[n] >= settings.ignitionTemperature;
+    particles.ignited[n] |= particles.kind[n] == ParticleKind::fuel && hot;
+  });
 }
 
-std::vector<double> burn(ParticleSet& particles, const BurnSettings& settings, double dt) {
-  std::vector<double> burnt(particles.size(), 0.0);
-  for (std::size_t n = 0; n < particles.size(); ++n) {
-    if (particles.kind[n] != ParticleKind::fuel || !particles.ignited[n]) continue;
-    burnt[n] = std::min(settings.burnRate * dt, particles.mass[n]);
+void burn(ParticleSet& particles, const BurnSettings& settings, double dt, std::vector<double>& burnt) {
+  burnt.resize(particles.size());
+  forEachParticle(particles, [&](std::size_t n) {
+    const bool burns = particles.kind[n] == ParticleKind::fuel && particles.ignited[n];
+    burnt[n] = burns ? std::min(settings.burnRate * dt, particles.mass[n]) : 0;
     particles.mass[n] -= burnt[n];
     particles.sootMass[n] += settings.sootPerMass * burnt[n];
+  });
+}
+
+namespace {
+/// Takes soot particles off a fuel particle's gathered soot: calls make(mass) for each.
+template <class Make>
+void takeSoot(const BurnSettings& settings, double& gathered, std::uint8_t& madeSoot, const Make& make) {
+  while (gathered >= settings.sootThreshold && !(settings.sootOnce && madeSoot)) {
+    const double mass = settings.sootOnce ? gathered : settings.sootThreshold;
+    gathered -= mass;
+    madeSoot = 1;
+    make(mass);
   }
-  return burnt;
 }
 
-void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const BurnSettings& settings,
-                  double dt, const Grid3<std::uint8_t>& solid, Grid3<float>& rate) {
-  const Kernel kernel(solid, settings.depositRadius);
-  std::vector<Deposit> deposits;
-  for (std::size_t n = 0; n < burnt.size(); ++n)
-    if (burnt[n] > 0) deposits.push_back({particles.position[n], {}, burnt[n]});
-  const double perVolume = 1 / (dt * rate.cellSize * rate.cellSize * rate.cellSize);
-  parallelFor(0, static_cast<std::int64_t>(deposits.size()), 256, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t n = first; n < last; ++n) {
-      Deposit& d = deposits[n];
-      d.reach = kernel.reach(d.place);
-      const double sum = kernel.weightSum(d.place, d.reach);
-      d.perWeight = sum > 0 ? d.perWeight * perVolume / sum : 0;
+/// Soot particles that a fuel particle is about to make.
+std::size_t sootDue(const ParticleSet& particles, const BurnSettings& settings, std::size_t n) {
+  std::size_t count = 0;
+  if (particles.kind[n] != ParticleKind::fuel || particles.sootMass[n] < settings.sootThreshold) return count;
+  double gathered = particles.sootMass[n];
+  std::uint8_t madeSoot = particles.madeSoot[n];
+  takeSoot(settings, gathered, madeSoot, [&](double) { ++count; });
+  return count;
+}
+
+/// A fuel particle that makes soot, and where its first soot particle goes.
+struct SootParent {
+  std::size_t parent, firstSoot;
+};
+
+/// Whether a place lies in gas.
+bool inGas(const Grid3<std::uint8_t>& solid, const Vec3d& place) {
+  const Vec3d cell = (place - solid.origin) / solid.cellSize + Vec3d(.5, .5, .5);
+  const int i = static_cast<int>(std::floor(cell.x)), j = static_cast<int>(std::floor(cell.y)),
+            k = static_cast<int>(std::floor(cell.z));
+  return solid.contains(i, j, k) && !solid(i, j, k);
+}
+
+/// Where soot of one id appears, and how fast it is relative to its parent.
+struct SootScatter {
+  Random place, speed;
+  double placeSpread, speedSpread;
+};
+
+void makeSoot(ParticleSet& p, const SootScatter& scatter, const Grid3<std::uint8_t>& solid, std::size_t parent,
+              std::size_t soot, double mass) {
+  const Vec3d place = p.position[parent] + scatter.place.normal3(p.id[soot]) * scatter.placeSpread;
+  p.kind[soot] = ParticleKind::soot;
+  p.mass[soot] = mass;
+  p.temperature[soot] = p.temperature[parent];
+  p.position[soot] = inGas(solid, place) ? place : p.position[parent];
+  p.velocity[soot] = p.velocity[parent] * (1 + scatter.speedSpread * scatter.speed.normal(p.id[soot]));
+}
+
+std::vector<SootParent> sootParents(const ParticleSet& particles, const BurnSettings& settings, std::size_t& soot) {
+  std::vector<SootParent> parents;
+  soot = 0;
+  for (std::size_t n = 0; n < particles.size(); ++n)
+    if (const std::size_t count = sootDue(particles, settings, n); count > 0) {
+      parents.push_back({n, particles.size() + soot});
+      soot += count;
     }
-  });
-  const auto lists = byLayer(deposits, rate.size.z);
-  parallelFor(0, rate.size.z, 1, [&](std::int64_t first, std::int64_t last) {
-    for (int k = static_cast<int>(first); k < last; ++k)
-      for (const std::uint32_t n : lists[k])
-        kernel.layer(deposits[n].place, deposits[n].reach, k, [&](std::int64_t cell, double weight) {
-          rate.values[cell] += static_cast<float>(deposits[n].perWeight * weight);
-        });
-  });
+  return parents;
 }
-
-double largestDeposit(std::size_t burning, const BurnSettings& settings, double cellSize) {
-  // The kernel's peak over its integral, 32 pi R^3 / 105; on a coarse grid no more than all in one cell.
-  const double r = std::max(settings.depositRadius, cellSize);
-  const double peak = std::min(105 / (32 * pi * r * r * r), 1 / (cellSize * cellSize * cellSize));
-  return static_cast<double>(burning) * settings.burnRate * peak;
-}
+}  // namespace
 
 void createSoot(ParticleSet& particles, const BurnSettings& settings, const Grid3<std::uint8_t>& solid,
                 std::uint64_t seed) {
-  const Random place(seed, Stream::sootPosition), speed(seed, Stream::sootVelocity);
-  const auto inGas = [&](const Vec3d& p) {
-    const Vec3d cell = (p - solid.origin) / solid.cellSize + Vec3d(.5, .5, .5);
-    const int i = static_cast<int>(std::floor(cell.x)), j = static_cast<int>(std::floor(cell.y)),
-              k = static_cast<int>(std::floor(cell.z));
-    return solid.contains(i, j, k) && !solid(i, j, k);
-  };
-  const std::size_t parents = particles.size();
-  for (std::size_t n = 0; n < parents; ++n) {
-    if (particles.kind[n] != ParticleKind::fuel) continue;
-    while (particles.sootMass[n] >= settings.sootThreshold && !(settings.sootOnce && particles.madeSoot[n])) {
-      const std::uint64_t id = particles.nextId;
-      NewParticle soot;
-      soot.kind = ParticleKind::soot;
-      soot.mass = settings.sootOnce ? particles.sootMass[n] : settings.sootThreshold;
-      soot.temperature = particles.temperature[n];
-      soot.position = particles.position[n] + place.normal3(id) * settings.sootPositionSpread;
-      if (!inGas(soot.position)) soot.position = particles.position[n];
-      soot.velocity = particles.velocity[n] * (1 + settings.sootVelocitySpread * speed.normal(id));
-      particles.sootMass[n] -= soot.mass;
-      particles.madeSoot[n] = 1;
-      append(particles, soot);
+  const SootScatter scatter{Random(seed, Stream::sootPosition), Random(seed, Stream::sootVelocity),
+                            settings.sootPositionSpread, settings.sootVelocitySpread};
+  std::size_t soot = 0;
+  const std::vector<SootParent> parents = sootParents(particles, settings, soot);
+  appendBlank(particles, soot);
+  constexpr std::int64_t parentsPerTask = 256;
+  parallelFor(0, static_cast<std::int64_t>(parents.size()), parentsPerTask, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t m = first; m < last; ++m) {
+      auto [parent, at] = parents[m];
+      takeSoot(settings, particles.sootMass[parent], particles.madeSoot[parent],
+               [&](double mass) { makeSoot(particles, scatter, solid, parent, at++, mass); });
     }
-  }
+  });
 }
 
 void removeSpent(ParticleSet& particles, const BurnSettings& settings, double dt) {
   std::vector<std::uint8_t> gone(particles.size());
-  for (std::size_t n = 0; n < particles.size(); ++n) {
+  forEachParticle(particles, [&](std::size_t n) {
     const bool soot = particles.kind[n] == ParticleKind::soot;
     if (soot) particles.mass[n] -= settings.sootBurnRate * dt;
     gone[n] = particles.mass[n] < (soot ? settings.sootMassThreshold : settings.fuelMassThreshold);
-  }
+  });
   removeFlagged(particles, gone);
 }
 
 std::size_t countBurning(const ParticleSet& particles) {
-  std::size_t count = 0;
-  for (std::size_t n = 0; n < particles.size(); ++n)
-    count += particles.kind[n] == ParticleKind::fuel && particles.ignited[n];
-  return count;
+  constexpr std::int64_t blockSize = 1 << 16;
+  return static_cast<std::size_t>(
+      parallelSum(static_cast<std::int64_t>(particles.size()), blockSize, [&](std::int64_t first, std::int64_t last) {
+        std::int64_t count = 0;
+        for (std::int64_t n = first; n < last; ++n)
+          count += particles.kind[n] == ParticleKind::fuel && particles.ignited[n];
+        return static_cast<double>(count);
+      }));
 }
 
 }  // namespace brisance

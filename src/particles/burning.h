@@ -15,17 +15,8 @@ void emitFuel(ParticleSet& particles, const ParticleSettings& settings, double t
 /// Sets fuel alight that is at its ignition temperature.
 void ignite(ParticleSet& particles, const BurnSettings& settings);
 
-/// What each particle burns over dt [s]: the burning rate times dt, or what it has left. [kg]
-std::vector<double> burn(ParticleSet& particles, const BurnSettings& settings, double dt);
-
-/// Adds burnt mass / (dt cell volume) [kg/(m3 s)] to `rate`, spread by the kernel (1 - r^2/R^2)^2 over the cells that
-/// are not solid: the same size on every grid, so that refining it keeps the explosion. R is at least one cell. The sum
-/// over cells is exact to rounding.
-void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const BurnSettings& settings,
-                  double dt, const Grid3<std::uint8_t>& solid, Grid3<float>& rate);
-
-/// The most that n particles burning in one place can add to a cell of `rate` [kg/(m3 s)].
-double largestDeposit(std::size_t burning, const BurnSettings& settings, double cellSize);
+/// Burns for dt [s]; `burnt` becomes what each particle burnt: the burning rate times dt, or what it had left. [kg]
+void burn(ParticleSet& particles, const BurnSettings& settings, double dt, std::vector<double>& burnt);
 
 /// Soot particles from fuel that has gathered enough, near their parents; a place outside the box or in a solid becomes
 /// the parent's.

@@ -40,6 +40,20 @@ void forEachField(Particles& p, const Visit& visit) {
   visit(p.madeSoot);
 }
 
+/// Calls visit(array of p, the same array of q) for each per-particle array.
+template <class Visit>
+void forEachField(ParticleSet& p, ParticleSet& q, const Visit& visit) {
+  visit(p.id, q.id);
+  visit(p.position, q.position);
+  visit(p.velocity, q.velocity);
+  visit(p.mass, q.mass);
+  visit(p.temperature, q.temperature);
+  visit(p.sootMass, q.sootMass);
+  visit(p.kind, q.kind);
+  visit(p.ignited, q.ignited);
+  visit(p.madeSoot, q.madeSoot);
+}
+
 /// One particle, to be appended.
 struct NewParticle {
   Vec3d position, velocity;
@@ -48,6 +62,9 @@ struct NewParticle {
   bool ignited = false;
 };
 void append(ParticleSet& particles, const NewParticle& particle);
+
+/// Appends `count` particles with the next ids, all else zero; returns the place of the first.
+std::size_t appendBlank(ParticleSet& particles, std::size_t count);
 
 /// Drops the particles whose flag is set; the others keep their order.
 void removeFlagged(ParticleSet& particles, const std::vector<std::uint8_t>& gone);

@@ -40,7 +40,7 @@ std::unique_ptr<GasMedium> gasOf(const Frame& frame, const RenderSettings& setti
   };
   if (!volume.drawn || !seen()) return nullptr;
   const ParticleVolumeSettings grid{volume.cells, volume.corner, volume.cellSize, volume.blur, volume.filterSize};
-  splatParticles(particles, grid, weigh, heat, scratch.volume);
+  splatParticles(particles, grid, weigh, heat, scratch.volume, scratch.splat);
   return std::make_unique<GasMedium>(scratch.volume, volume, std::move(scratch.samples));
 }
 

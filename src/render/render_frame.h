@@ -24,6 +24,7 @@ struct RenderAssets {
 /// Memory that one picture after another may use; its content means nothing.
 struct RenderScratch {
   ParticleVolume volume;
+  SplatScratch splat;
   SampleMemory samples;
 };
 

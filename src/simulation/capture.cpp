@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace brisance {
 
 namespace {
@@ -13,23 +15,19 @@ struct Quiet {
 };
 
 SparseGrid<float> sparse(const Grid3<float>& grid, float background, float quiet) {
-  Grid3<float> snapped = grid;
-  for (float& value : snapped.values)
-    if (std::abs(value - background) < quiet) value = background;
-  return makeSparse(snapped, background);
+  return makeSparse(grid, background, [&](int i, int j, int k) {
+    const float value = grid(i, j, k);
+    return std::abs(value - background) < quiet ? background : value;
+  });
 }
 
 SparseGrid<Vec3f> centreVelocities(const FluidState& gas) {
   const MacVelocity& m = gas.velocity;
-  Grid3<Vec3f> centre(gas.pressure.size, gas.pressure.origin, gas.pressure.cellSize);
-  for (int k = 0; k < centre.size.z; ++k)
-    for (int j = 0; j < centre.size.y; ++j)
-      for (int i = 0; i < centre.size.x; ++i) {
-        const Vec3f v{0.5f * (m.u(i, j, k) + m.u(i + 1, j, k)), 0.5f * (m.v(i, j, k) + m.v(i, j + 1, k)),
-                      0.5f * (m.w(i, j, k) + m.w(i, j, k + 1))};
-        if (length(v) >= Quiet::velocity) centre(i, j, k) = v;
-      }
-  return makeSparse(centre, Vec3f{});
+  return makeSparse(gas.pressure, Vec3f{}, [&](int i, int j, int k) {
+    const Vec3f v{0.5f * (m.u(i, j, k) + m.u(i + 1, j, k)), 0.5f * (m.v(i, j, k) + m.v(i, j + 1, k)),
+                  0.5f * (m.w(i, j, k) + m.w(i, j, k + 1))};
+    return length(v) >= Quiet::velocity ? v : Vec3f{};
+  });
 }
 
 std::uint8_t frameKind(const ParticleSet& p, std::size_t n) {
@@ -39,13 +37,21 @@ std::uint8_t frameKind(const ParticleSet& p, std::size_t n) {
 
 FrameParticles captureParticles(const ParticleSet& p) {
   FrameParticles out;
-  for (std::size_t n = 0; n < p.size(); ++n) {
-    out.position.emplace_back(p.position[n]);
-    out.velocity.emplace_back(p.velocity[n]);
-    out.mass.push_back(static_cast<float>(p.mass[n]));
-    out.temperature.push_back(static_cast<float>(p.temperature[n]));
-    out.kind.push_back(frameKind(p, n));
-  }
+  out.position.resize(p.size());
+  out.velocity.resize(p.size());
+  out.mass.resize(p.size());
+  out.temperature.resize(p.size());
+  out.kind.resize(p.size());
+  constexpr std::int64_t grain = 1 << 14;
+  parallelFor(0, static_cast<std::int64_t>(p.size()), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t n = first; n < last; ++n) {
+      out.position[n] = Vec3f(p.position[n]);
+      out.velocity[n] = Vec3f(p.velocity[n]);
+      out.mass[n] = static_cast<float>(p.mass[n]);
+      out.temperature[n] = static_cast<float>(p.temperature[n]);
+      out.kind[n] = frameKind(p, static_cast<std::size_t>(n));
+    }
+  });
   return out;
 }
 }  // namespace

@@ -1,24 +1,38 @@
 #include "simulation/coupling.h"
 
+#include "base/parallel.h"
+#include "base/vector_path.h"
 #include "particles/burning.h"
 #include "particles/particle_step.h"
 
 namespace brisance {
 
+namespace {
+/// Heat and expansion follow the fuel burnt; the largest expansion [1/s].
+double spreadBurning(FluidState& gas, float heat, float expansion) {
+  constexpr std::int64_t blockSize = 1 << 16;
+  return parallelMax(gas.burnRate.count(), blockSize, [&](std::int64_t first, std::int64_t last) {
+    float largest = 0;
+    runWide([&] {
+      for (std::int64_t n = first; n < last; ++n) {
+        const float burning = gas.burnRate.values[n];
+        gas.heatRate.values[n] = heat * burning;
+        gas.divergence.values[n] = expansion * burning;
+        largest = std::max(largest, expansion * burning);
+      }
+    });
+    return static_cast<double>(largest);
+  });
+}
+}  // namespace
+
 void burnIntoGas(WorldState& world, const SimulationSettings& settings, double dt) {
   const BurnSettings& burning = settings.particles.burning;
   FluidState& gas = world.gas;
-  const std::vector<double> burnt = burn(world.particles, burning, dt);
-  std::fill(gas.burnRate.values.begin(), gas.burnRate.values.end(), 0.0f);
-  depositBurnt(world.particles, burnt, burning, dt, gas.solid.inside, gas.burnRate);
-  const float heat = static_cast<float>(burning.heatPerMass / settings.fluid.heatCapacity);
-  const float expansion = static_cast<float>(burning.gasPerMass);
-  world.largestSource = 0;
-  for (std::size_t n = 0; n < gas.burnRate.values.size(); ++n) {
-    gas.heatRate.values[n] = heat * gas.burnRate.values[n];
-    gas.divergence.values[n] = expansion * gas.burnRate.values[n];
-    world.largestSource = std::max(world.largestSource, static_cast<double>(gas.divergence.values[n]));
-  }
+  burn(world.particles, burning, dt, world.burnt);
+  depositBurnt(world.particles, world.burnt, burning, dt, gas.solid.inside, gas.burnRate, world.deposit);
+  world.largestSource = spreadBurning(gas, static_cast<float>(burning.heatPerMass / settings.fluid.heatCapacity),
+                                      static_cast<float>(burning.gasPerMass));
   world.burning = countBurning(world.particles);
   createSoot(world.particles, burning, gas.solid.inside, settings.seed);
   removeSpent(world.particles, burning, dt);

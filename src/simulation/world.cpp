@@ -94,6 +94,7 @@ void World::advance() {
   world.report = {};
   const double start = settings_.frameTime * (world.frame - 1), end = settings_.frameTime * world.frame;
   world.time = start;
+  timed(world.report, "particles", [&] { sortByRow(world.particles, world.gas.burnRate, world.order); });
   const double sliver = 1e-9 * settings_.frameTime;
   while (world.time < end - sliver) {
     const double longest = longestStep(world.gas, settings_.fluid, expectedSource(world, settings_));

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "fluid/fluid_step.h"
+#include "particles/deposit.h"
+#include "particles/particle_order.h"
 #include "particles/particle_set.h"
 #include "rigid/rigid_bodies.h"
 #include "simulation/world.h"
@@ -35,6 +37,9 @@ struct WorldState {
   RunTotals totals;
   StepReport report;  ///< of the last frame
   FluidScratch scratch;
+  std::vector<double> burnt;  ///< [kg] per particle in the last sub-step
+  DepositScratch deposit;
+  OrderScratch order;
 };
 
 }  // namespace brisance

@@ -239,12 +239,39 @@ TEST(ParticleVolume, HasTheSameBitsForAnyNumberOfThreadsAndAnyVectors) {
   forceVectorPath(before);
 }
 
+TEST(ParticleVolume, TwoCloudsFarApartLeaveAllBetweenThemEmpty) {
+  auto settings = smallVolume();
+  settings.size = {150, 70, 70};
+  FrameParticles particles;
+  addParticle(particles, {0, 3, 4}, 0.5f);
+  addParticle(particles, {13, 8, 9}, 0.5f);
+  const auto volume = splatParticles(particles, settings, equalMass, mixedColour);
+  EXPECT_NEAR(massOf(volume), 2 * particleMass, 2 * particleMass * rounding);
+  int filled = 0;
+  for (std::int64_t n = 0; n < volume.density.count(); ++n) {
+    filled += volume.density.values[n] > 0;
+    ASSERT_EQ(volume.density.values[n] > 0, volume.colour.values[n].y > 0);
+  }
+  EXPECT_LE(filled, 2 * 16 * 16 * 16);  // two cells, and seven more each way
+  EXPECT_GT(filled, 2 * 14 * 14 * 14);
+}
+
+TEST(ParticleVolume, AVolumeOfOneCellHoldsAll) {
+  auto settings = smallVolume();
+  settings.size = {1, 1, 1};
+  FrameParticles particles;
+  addParticle(particles, {-.98, 2.05, 3.07}, 0.5f);
+  const auto volume = splatParticles(particles, settings, equalMass, mixedColour);
+  EXPECT_NEAR(massOf(volume), particleMass, particleMass * rounding);
+}
+
 TEST(ParticleVolume, MemoryUsedAgainLeavesNoTrace) {
   const auto settings = smallVolume();
   const auto few = spreadParticles(3, settings, 8), many = spreadParticles(2000, settings, 9);
   ParticleVolume volume;
+  SplatScratch scratch;
   for (const auto* particles : {&many, &few, &many}) {
-    splatParticles(*particles, settings, equalMass, mixedColour, volume);
+    splatParticles(*particles, settings, equalMass, mixedColour, volume, scratch);
     EXPECT_TRUE(sameBits(volume, splatParticles(*particles, settings, equalMass, mixedColour)));
   }
 }

@@ -4,6 +4,8 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/vector_path.h"
+#include "grid/interpolate.h"
 #include "particles/particle_step.h"
 
 namespace brisance {
@@ -20,58 +22,24 @@ struct Box {
   GasAround around() const { return {velocity, temperature, open}; }
 };
 
+/// What the first particle burnt.
+double burnFirst(ParticleSet& p, const BurnSettings& s, double dt) {
+  std::vector<double> burnt;
+  burn(p, s, dt, burnt);
+  return burnt[0];
+}
+
 ParticleSet oneFuel(const Vec3d& place, double mass, bool ignited) {
   ParticleSet p;
   append(p, {place, {}, mass, 300, ParticleKind::fuel, ignited});
   return p;
 }
 
-TEST(Burning, FuelBurntTimesItsHeatIsTheHeatOnTheGrid) {
-  for (const double radius : {0.01, 0.1, 0.3}) {
-    Box box;
-    box.solid(7, 8, 8) = 1;  // a solid takes no heat
-    BurnSettings s;
-    s.depositRadius = radius;
-    ParticleSet p;
-    for (int n = 0; n < 50; ++n)
-      append(p, {Vec3d(.3 + .008 * n, .5, .45), {}, s.mass, 300, ParticleKind::fuel, n % 2 == 0});
-    const double dt = 0.01;
-    const std::vector<double> burnt = burn(p, s, dt);
-    Grid3<float> rate = box.temperature;
-    std::fill(rate.values.begin(), rate.values.end(), 0.0f);
-    depositBurnt(p, burnt, s, dt, box.solid, rate);
-    double sum = 0;
-    for (const float r : rate.values) sum += r;
-    const double cellVolume = 1.0 / 4096;
-    EXPECT_NEAR(sum * cellVolume * dt / (25 * s.burnRate * dt), 1, 1e-5);
-    EXPECT_EQ(rate(7, 8, 8), 0);
-  }
-}
-
-TEST(Burning, DepositsAreTheSameBitsOnAnyNumberOfThreads) {
-  Box box;
-  BurnSettings s;
-  ParticleSet p;
-  const Random random(5, Stream::test);
-  for (int n = 0; n < 2000; ++n)
-    append(p, {Vec3d(.5, .5, .5) + random.onSphere(n) * 0.3, {}, s.mass, 300, ParticleKind::fuel, true});
-  const std::vector<double> burnt = burn(p, s, 0.01);
-  std::vector<Grid3<float>> results;
-  for (const int threads : {1, 2, 4}) {
-    const ThreadLimit limit(threads);
-    Grid3<float> rate = box.temperature;
-    depositBurnt(p, burnt, s, 0.01, box.solid, rate);
-    results.push_back(rate);
-  }
-  EXPECT_EQ(results[0], results[1]);
-  EXPECT_EQ(results[0], results[2]);
-}
-
 TEST(Burning, AParticleBurnsWhatItHasLeftAndNoMore) {
   BurnSettings s;
   ParticleSet p = oneFuel({.5, .5, .5}, s.burnRate * 0.025, true);
   double total = 0;
-  for (int n = 0; n < 4; ++n) total += burn(p, s, 0.01)[0];
+  for (int n = 0; n < 4; ++n) total += burnFirst(p, s, 0.01);
   EXPECT_NEAR(total, s.burnRate * 0.025, 1e-18);
   EXPECT_EQ(p.mass[0], 0);
   removeSpent(p, s, 0.01);
@@ -94,7 +62,7 @@ TEST(Burning, SootMassIsKept) {
   ParticleSet p = oneFuel({.5, .5, .5}, s.mass, true);
   double burnt = 0;
   while (p.size() > 0 && countBurning(p) > 0) {
-    burnt += burn(p, s, 0.01)[0];
+    burnt += burnFirst(p, s, 0.01);
     createSoot(p, s, box.solid, 1);
     if (p.mass[0] == 0) break;
   }
@@ -114,7 +82,7 @@ TEST(Burning, TheThesisMakesOneSootParticlePerFuelParticle) {
   s.sootOnce = true;
   ParticleSet p = oneFuel({.5, .5, .5}, s.mass, true);
   for (int n = 0; n < 40; ++n) {
-    burn(p, s, 0.01);
+    burnFirst(p, s, 0.01);
     createSoot(p, s, box.solid, 1);
   }
   EXPECT_EQ(p.size(), 2u);
@@ -159,6 +127,106 @@ TEST(Drag, TerminalVelocityIsTheGas) {
   ASSERT_EQ(p.size(), 1u);
   const double k = s.drag * s.radius * s.radius / s.mass;  // the lag decays as 1 / (1 + k |dv| t)
   EXPECT_NEAR(p.velocity[0].y, 0.2 - 0.2 / (1 + k * 0.2 * 2), 1e-6);
+}
+
+/// Gas that turns about the middle of the box and grows warmer upwards, and fuel and soot all over it.
+struct Whirl {
+  Box box;
+  ParticleSet particles;
+  BurnSettings settings;
+
+  Whirl() {
+    for (int axis = 0; axis < 3; ++axis) {
+      Grid3<float>& component = box.velocity.component(axis);
+      for (int k = 0; k < component.size.z; ++k)
+        for (int j = 0; j < component.size.y; ++j)
+          for (int i = 0; i < component.size.x; ++i) {
+            const Vec3d away = component.position(i, j, k) - Vec3d(.5, .5, .5);
+            component(i, j, k) = static_cast<float>((cross(Vec3d(1, 2, -1), away) + away * .5)[axis]);
+          }
+    }
+    for (std::int64_t n = 0; n < box.temperature.count(); ++n) box.temperature.values[n] += static_cast<float>(n % 256);
+    for (int j = 0; j < 8; ++j) box.open.u(9, j, 5) = 0;  // a wall
+    const Random random(8, Stream::test);
+    for (std::uint64_t n = 0; n < 6000; ++n) {
+      NewParticle p;
+      p.position = {random.uniform(8 * n), random.uniform(8 * n + 1), random.uniform(8 * n + 2)};
+      p.velocity = Vec3d(random.uniform(8 * n + 3), random.uniform(8 * n + 4), -random.uniform(8 * n + 5));
+      p.mass = settings.mass * random.uniform(8 * n + 6) * (n % 5 == 0 ? 1e-9 : 1);
+      p.temperature = 300 + 1000 * random.uniform(8 * n + 7);
+      p.kind = n % 3 == 0 ? ParticleKind::soot : ParticleKind::fuel;
+      append(particles, p);
+    }
+  }
+  ParticleSet after(double dt) const {
+    ParticleSet moved = particles;
+    stepParticles(moved, box.around(), settings, dt);
+    return moved;
+  }
+};
+
+TEST(ParticleStep, IsWhatEachParticleAloneWouldDo) {
+  const Whirl whirl;
+  const double dt = 0.02;
+  const ParticleSet moved = whirl.after(dt);
+  EXPECT_GT(moved.size(), 5000u);
+  EXPECT_LT(moved.size(), 6000u);  // some leave the box
+  const BurnSettings& s = whirl.settings;
+  for (std::size_t n = 0; n < moved.size(); ++n) {
+    const std::uint64_t id = moved.id[n];
+    const ParticleSet& before = whirl.particles;
+    const bool fuel = before.kind[id] == ParticleKind::fuel;
+    const Vec3d wind = interpolate(whirl.box.velocity, before.position[id]);
+    Dragged exact{wind * dt, wind};
+    if (before.mass[id] >= (fuel ? s.fuelMassThreshold : s.sootMassThreshold))
+      exact = dragExactly(before.velocity[id], wind, s.drag * s.radius * s.radius / before.mass[id], dt);
+    // Winds of a few m/s in single precision.
+    ASSERT_LT(length(moved.velocity[n] - exact.velocity), 1e-6);
+    const Vec3d goal = before.position[id] + exact.displacement;
+    const bool wallNear = moved.position[n].x > 8.0 / 16 && moved.position[n].x < 10.0 / 16;
+    ASSERT_TRUE(wallNear || length(moved.position[n] - goal) < 1e-6 * dt);
+    const double around = interpolate(whirl.box.temperature, moved.position[n]);
+    const double kept = std::exp(-dt * s.heating * s.radius * s.radius / s.thermalMass);
+    ASSERT_NEAR(moved.temperature[n], around + (before.temperature[id] - around) * kept, 1e-3);
+  }
+}
+
+TEST(ParticleStep, IsTheSameBitsOnAnyNumberOfThreadsAndVectors) {
+  const Whirl whirl;
+  const ParticleSet expected = whirl.after(0.02);
+  const VectorPath before = vectorPath();
+  for (const int threads : {1, 2, 5})
+    for (const VectorPath path : {VectorPath::plain, VectorPath::avx2, VectorPath::avx512}) {
+      const ThreadLimit limit(threads);
+      forceVectorPath(path);
+      EXPECT_EQ(whirl.after(0.02), expected);
+    }
+  forceVectorPath(before);
+}
+
+TEST(ParticleStep, DoesNothingWithoutParticles) {
+  const Box box;
+  ParticleSet none;
+  stepParticles(none, box.around(), {}, 0.01);
+  EXPECT_EQ(none.size(), 0u);
+}
+
+TEST(Soot, IsTheSameOnAnyNumberOfThreads) {
+  const Box box;
+  BurnSettings s;
+  const auto made = [&](int threads) {
+    const ThreadLimit limit(threads);
+    ParticleSet p;
+    for (int n = 0; n < 2000; ++n) append(p, {{.5, .5, .5}, {1, 0, 0}, s.mass, 300, ParticleKind::fuel, n % 2 == 0});
+    for (int n = 0; n < 3; ++n) {
+      burnFirst(p, s, 0.02);
+      createSoot(p, s, box.solid, 1);
+    }
+    return p;
+  };
+  const ParticleSet expected = made(1);
+  EXPECT_EQ(expected.size(), 2000u + 3000u);  // a thousand of them have burnt for three soot particles each
+  for (const int threads : {2, 5}) EXPECT_EQ(made(threads), expected);
 }
 
 TEST(Heating, FollowsItsExponentialAndCoolsToo) {

@@ -1,0 +1,157 @@
+#include "particles/deposit.h"
+
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace brisance {
+
+namespace {
+
+/// (1 - t^2/R^2)^3 at whole t, R in cells.
+std::vector<double> kernelShape(double radius) {
+  std::vector<double> shape;
+  for (int t = 0; t == 0 || t < radius; ++t) {
+    const double inside = 1 - t * t / (radius * radius);
+    shape.push_back(inside * inside * inside);
+  }
+  return shape;
+}
+
+double varianceOf(const std::vector<double>& shape) {
+  double sum = shape[0], squares = 0;
+  for (std::size_t t = 1; t < shape.size(); ++t) {
+    sum += 2 * shape[t];
+    squares += 2 * shape[t] * static_cast<double>(t * t);
+  }
+  return squares / sum;
+}
+
+/// The kernel (1 - x^2/R^2)^3 has the variance R^2/9; sharing a particle linearly between cells adds 1/6 of a cell
+/// squared on average, f (1 - f) at a distance f. The filter makes up the rest.
+SymmetricFilter depositFilter(double radiusInCells) {
+  const double wanted = radiusInCells * radiusInCells / 9 - 1.0 / 6;
+  if (wanted <= 0) return {};
+  double lower = 1, upper = radiusInCells + 2;  // a radius of one cell spreads nothing
+  constexpr int halvings = 50;
+  for (int n = 0; n < halvings; ++n) {
+    const double middle = (lower + upper) / 2;
+    (varianceOf(kernelShape(middle)) < wanted ? lower : upper) = middle;
+  }
+  return SymmetricFilter(kernelShape(upper));
+}
+
+bool hasSolids(const Grid3<std::uint8_t>& solid) {
+  return std::find(solid.values.begin(), solid.values.end(), 1) != solid.values.end();
+}
+
+/// One over the share of each cell's kernel that falls on gas, 0 where none does.
+void normalizeByGas(const Grid3<std::uint8_t>& solid, const SymmetricFilter& filter, Grid3<float>& perSource) {
+  perSource = Grid3<float>(solid.size, solid.origin, solid.cellSize);
+  BlurTask task{.size = solid.size, .channels = 1, .filter = filter, .fill = {}, .memory = {}, .finish = {}};
+  task.fill = [&](int k, SplatLayer& layer) {
+    for (int j = 0; j < solid.size.y; ++j) {
+      for (int i = 0; i < solid.size.x; ++i) layer.row(j)[i] = solid(i, j, k) ? 0.f : 1.f;
+      layer.use(j, {0, solid.size.x});
+    }
+  };
+  task.memory = [&](int, int j, int k) { return &perSource(0, j, k); };
+  task.finish = [&](int j, int k, const CellSpan&, const float* const* share) {
+    for (int i = 0; i < solid.size.x; ++i) perSource(i, j, k) = share[0][i] > 0 ? 1 / share[0][i] : 0;
+  };
+  blurSeparably(task);
+}
+
+/// The deposit as points in cells. Where a solid stands among the eight cells around a particle, all of it belongs to
+/// the nearest of them that is not solid.
+class DepositPoints {
+ public:
+  DepositPoints(const Grid3<std::uint8_t>& solid, bool anySolids) : solid_(solid), anySolids_(anySolids) {}
+
+  std::array<AxisShare, 3> shares(const Vec3d& place) const {
+    std::array<AxisShare, 3> share;
+    for (int axis = 0; axis < 3; ++axis)
+      share[axis] = axisShare((place[axis] - solid_.origin[axis]) / solid_.cellSize, solid_.size[axis]);
+    return anySolids_ ? outsideSolids(share) : share;
+  }
+
+ private:
+  std::array<AxisShare, 3> outsideSolids(const std::array<AxisShare, 3>& share) const {
+    std::array<AxisShare, 3> nearest = share;
+    float largest = -1;
+    bool touches = false;
+    for (int corner = 0; corner < 8; ++corner) {
+      std::array<AxisShare, 3> cell;
+      float weight = 1;
+      for (int axis = 0; axis < 3; ++axis) {
+        const bool upper = corner >> axis & 1;
+        cell[axis] = {std::min(share[axis].lower + upper, solid_.size[axis] - 1), 0};
+        weight *= upper ? share[axis].fraction : 1 - share[axis].fraction;
+      }
+      const bool blocked = solid_(cell[0].lower, cell[1].lower, cell[2].lower);
+      touches = touches || blocked;
+      if (blocked || weight <= largest) continue;
+      largest = weight;
+      nearest = cell;
+    }
+    return touches ? nearest : share;
+  }
+
+  const Grid3<std::uint8_t>& solid_;
+  bool anySolids_;
+};
+
+void multiplyUsed(const Grid3<float>& factor, int k, SplatLayer& layer) {
+  for (int j = 0; j < factor.size.y; ++j)
+    for (int i = layer.used(j).first; i < layer.used(j).end; ++i) layer.row(j)[i] *= factor(i, j, k);
+}
+
+void renewNormalizer(const Grid3<std::uint8_t>& solid, const SymmetricFilter& filter, double kernelCells,
+                     DepositScratch& scratch) {
+  if (scratch.solid == solid && scratch.kernelCells == kernelCells) return;
+  normalizeByGas(solid, filter, scratch.perSource);
+  scratch.solid = solid;
+  scratch.kernelCells = kernelCells;
+}
+
+}  // namespace
+
+void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const BurnSettings& settings,
+                  double dt, const Grid3<std::uint8_t>& solid, Grid3<float>& rate, DepositScratch& scratch) {
+  const double kernelCells = settings.depositRadius / solid.cellSize;
+  BlurTask task{
+      .size = solid.size, .channels = 1, .filter = depositFilter(kernelCells), .fill = {}, .memory = {}, .finish = {}};
+  const bool solids = hasSolids(solid);
+  if (solids) renewNormalizer(solid, task.filter, kernelCells, scratch);
+  const DepositPoints points(solid, solids);
+  const auto make = [&](std::int64_t n, SplatPoint<1>& point) -> std::int64_t {
+    if (!(burnt[n] > 0)) return -1;
+    point = {points.shares(particles.position[n]), {static_cast<float>(burnt[n])}};
+    return point.share[2].lower;
+  };
+  sortIntoBins(static_cast<std::int64_t>(burnt.size()), solid.size.z, make, scratch.points);
+
+  std::array<std::vector<float>, 3> gain;  // what solids do not keep the box's faces do not either
+  for (int axis = 0; axis < 3; ++axis)
+    gain[axis] = solids ? std::vector<float>(solid.size[axis], 1.f) : task.filter.gainInside(solid.size[axis]);
+  task.fill = [&](int k, SplatLayer& layer) {
+    LayerSplat<1>{scratch.points, gain}(k, layer);
+    if (solids) multiplyUsed(scratch.perSource, k, layer);
+  };
+  task.memory = [&](int, int j, int k) { return &rate(0, j, k); };
+  const float perVolume = static_cast<float>(1 / (dt * rate.cellSize * rate.cellSize * rate.cellSize));
+  task.finish = [&](int j, int k, const CellSpan& span, const float* const* mass) {
+    float* row = &rate(0, j, k);
+    std::fill(row, row + std::max(0, span.first), 0.f);
+    for (int i = span.first; i < span.end; ++i) row[i] = solid(i, j, k) ? 0.f : mass[0][i] * perVolume;
+    std::fill(row + std::max(0, span.end), row + rate.size.x, 0.f);
+  };
+  blurSeparably(task);
+}
+
+double largestDeposit(std::size_t burning, const BurnSettings& settings, double cellSize) {
+  const double middle = depositFilter(settings.depositRadius / cellSize)(0) / cellSize;
+  return static_cast<double>(burning) * settings.burnRate * middle * middle * middle;
+}
+
+}  // namespace brisance
