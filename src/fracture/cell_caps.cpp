@@ -231,11 +231,14 @@ void placeVertices(CellComplex& complex, const CellLattice& lattice) {
 
 std::vector<WeightedSeed> latticeSeeds(const CellLattice& lattice, const std::vector<Vec3d>& seeds,
                                        const std::vector<double>& weights) {
+  constexpr double heaviest = 0x1p38;  // as far as the ghosts around the box reach; four times its side squared
   std::vector<WeightedSeed> result;
   const double metre = lattice.inSeedSteps(lattice.place({}) + Vec3d(1, 0, 0)).x;
   for (std::size_t n = 0; n < seeds.size(); ++n) {
     WeightedSeed seed{lattice.seed(seeds[n], n), 0};
-    if (!weights.empty()) seed.weight = static_cast<std::int64_t>(std::nearbyint(weights[n] * metre * metre));
+    if (!weights.empty())
+      seed.weight =
+          static_cast<std::int64_t>(std::nearbyint(std::clamp(weights[n] * metre * metre, -heaviest, heaviest)));
     result.push_back(seed);
   }
   return result;

@@ -5,9 +5,10 @@
 
 namespace brisance {
 
-/// Closed and oriented, of the points that it needs alone. Points of one plane, line or place have a hull as thick as
-/// rounding (Qhull joggles its input): a closed mesh of some volume still, unless all points are one, whose hull is
-/// empty. Any thread may call it.
+/// Closed and oriented, of the points that it needs alone. Qhull joggles its input, so many points of one plane leave
+/// sliver facets whose normals mean nothing: convex by volume (points stand out from a facet by less than 1e-10 of the
+/// cube of the extent), not by every facet's plane. Points of one plane have a closed hull without volume; fewer than
+/// four points have their box; points that are all one have none. Any thread may call it.
 TriangleMesh convexHull(const std::vector<Vec3d>& points);
 
 }  // namespace brisance

@@ -71,7 +71,7 @@ TEST(SolidFracture, ACubeCutInTwoHasOneFlatFaceThatBothShare) {
     }
   }
   EXPECT_NEAR(area, bond.area, 1e-9);
-  // A plane through a unit cube cuts at least through its middle third, at most through its longest section.
+  // The largest plane section of a unit cube.
   EXPECT_LE(bond.area, std::sqrt(2.0) + 1e-9);
 }
 
