@@ -35,9 +35,10 @@ void sortDrawn(const FrameParticles& particles, const ParticleVolumeSettings& se
     const Vec3f colour = colourOf(particles.temperature[n]) * mass;
     point.amount = {mass, colour.x, colour.y, colour.z};
     for (int axis = 0; axis < 3; ++axis) point.share[axis] = axisShare(place[axis], settings.size[axis]);
-    return point.share[2].lower;
+    return rowOf(point, settings.size.y);
   };
-  sortIntoBins(static_cast<std::int64_t>(particles.position.size()), settings.size.z, make, points);
+  const std::int64_t rows = static_cast<std::int64_t>(settings.size.y) * settings.size.z;
+  sortIntoBins(static_cast<std::int64_t>(particles.position.size()), rows, make, points);
 }
 
 /// Cells of the asked volume, by their numbers.
@@ -45,33 +46,35 @@ struct CellBox {
   Vec3i lower, size;
 };
 
-/// The cells before which and after which no point of a layer lies.
-struct LayerBounds {
+/// The cells before which and after which no point lies.
+struct PointBounds {
   Vec3i lower{1 << 30, 1 << 30, 1 << 30}, upper{-1, -1, -1};
-  void include(const LayerBounds& other) {
+  void include(const PointBounds& other) {
     lower = min(lower, other.lower);
     upper = max(upper, other.upper);
   }
 };
 
-LayerBounds boundsOf(const Binned<Point>& points, int layers) {
-  std::vector<LayerBounds> ofLayer(layers);
-  parallelFor(0, layers, 4, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t k = first; k < last; ++k)
-      for (const Point& point : points.bin(k)) {
-        const auto& [x, y, z] = point.share;
-        ofLayer[k].include({{x.lower, y.lower, z.lower}, {x.lower + 1, y.lower + 1, z.lower + 1}});
+PointBounds boundsOf(const std::vector<Point>& points) {
+  constexpr std::int64_t blockSize = 1 << 14;
+  const std::int64_t count = std::ssize(points), blocks = (count + blockSize - 1) / blockSize;
+  std::vector<PointBounds> ofBlock(blocks);
+  parallelFor(0, blocks, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t block = first; block < last; ++block)
+      for (std::int64_t n = block * blockSize; n < std::min(count, (block + 1) * blockSize); ++n) {
+        const auto& [x, y, z] = points[n].share;
+        ofBlock[block].include({{x.lower, y.lower, z.lower}, {x.lower + 1, y.lower + 1, z.lower + 1}});
       }
   });
-  LayerBounds all;
-  for (const LayerBounds& layer : ofLayer) all.include(layer);
+  PointBounds all;
+  for (const PointBounds& block : ofBlock) all.include(block);
   return all;
 }
 
 /// What any particle reaches, and one empty cell more, inside the volume.
 CellBox reachedCells(const Binned<Point>& points, int radius, const Vec3i& volumeSize) {
   if (points.items.empty()) return {{0, 0, 0}, {1, 1, 1}};
-  const LayerBounds bounds = boundsOf(points, volumeSize.z);
+  const PointBounds bounds = boundsOf(points.items);
   const Vec3i rim(radius + 1, radius + 1, radius + 1);
   const Vec3i lower = max(Vec3i(0, 0, 0), bounds.lower - rim);
   return {lower, min(volumeSize - Vec3i(1, 1, 1), bounds.upper + rim) - lower + Vec3i(1, 1, 1)};
@@ -146,8 +149,8 @@ void splatParticles(const FrameParticles& particles, const ParticleVolumeSetting
   std::array<std::vector<float>, 3> gain;
   for (int axis = 0; axis < 3; ++axis) gain[axis] = filter.gainInside(settings.size[axis]);
   BlurTask blur = volumeBlur(filter, volume);
-  const LayerSplat<channels> splat{points, gain, cells.lower.x, cells.lower.y};
-  blur.fill = [&](int k, SplatLayer& layer) { splat(k + cells.lower.z, layer); };
+  const RowSplat<channels> splat{points, gain, cells.lower.x};
+  blur.fill = [&](int j, int k, float* row) { return splat(j + cells.lower.y, k + cells.lower.z, row); };
   blurSeparably(blur);
 }
 

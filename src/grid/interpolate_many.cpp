@@ -21,12 +21,12 @@ struct Corners {
 
 /// Cell and share along one axis; `cell` is counted in steps of `stride`.
 inline void addAxis(const Vec3d* places, int count, int axis, const Grid3<float>& grid, Corners& corners) {
-  const double origin = grid.origin[axis], last = grid.size[axis] - 1.0, h = grid.cellSize;
+  const double origin = grid.origin[axis], last = grid.size[axis] - 1.0, inverse = 1 / grid.cellSize;
   const int lastCell = grid.size[axis] - 2;
   const std::int64_t stride = grid.stride(axis);
   float* share = corners.share[axis];
   for (int n = 0; n < count; ++n) {
-    const double x = (places[n][axis] - origin) / h;
+    const double x = (places[n][axis] - origin) * inverse;
     const double inside = std::min(x > 0 ? x : 0.0, last);
     const int cell = std::min(static_cast<int>(inside), lastCell);
     share[n] = static_cast<float>(inside - cell);

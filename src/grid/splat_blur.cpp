@@ -1,7 +1,6 @@
 #include "grid/splat_blur.h"
 
-#include <cstring>
-
+#include "base/aligned.h"
 #include "base/check.h"
 #include "base/vector_path.h"
 
@@ -43,174 +42,163 @@ inline void sumSpan(const float* const* rows, const SymmetricFilter& filter, con
     sumBlock(rows, filter, cell, sums + cell);
 }
 
-/// Pointers to the rows of a window; index 0 is its middle.
-class RowWindow {
+/// The last rows along an axis, x-blurred or not, as many as the filter reaches: of each its channels one after the
+/// other, with padding around them.
+class RowRing {
  public:
-  explicit RowWindow(int radius) : radius_(radius), rows_(2 * radius + 1) {}
-  const float*& operator[](int t) { return rows_[t + radius_]; }
-  const float* const* middle() const { return rows_.data() + radius_; }
+  RowRing(const BlurTask& task)
+      : filter_(task.filter),
+        channels_(task.channels),
+        pad_(padding(task.filter.radius())),
+        width_(paddedWidth(task.size.x, task.filter.radius())),
+        slots_(2 * task.filter.radius() + 1),
+        rows_(static_cast<std::size_t>(slots_) * channels_ * width_, 0.f),
+        spans_(slots_),
+        sums_(static_cast<std::size_t>(channels_) * width_, 0.f),
+        window_(slots_) {}
+
+  int pad() const { return pad_; }
+  int width() const { return width_; }
+
+  /// Makes row n, in the place of the oldest, one that is filled in `span` only; the caller writes that. n counts up
+  /// from -radius.
+  void begin(int n, const CellSpan& span) {
+    CellSpan& old = spans_[slotOf(n)];
+    if (span.empty() || old.first < span.first || old.end > span.end)
+      for (int c = 0; c < channels_; ++c) std::fill(row(n, c) + old.first, row(n, c) + old.end, 0.f);
+    old = span;
+  }
+  float* row(int n, int channel) { return slot(n) + channel * width_ + pad_; }
+
+  /// The cells that the sums over the rows around n fill: those of all rows.
+  CellSpan reached() const {
+    CellSpan all;
+    for (const CellSpan& span : spans_) all.include(span);
+    return all;
+  }
+  void sumAround(int n, const CellSpan& span) {
+    const int radius = filter_.radius();
+    for (int t = -radius; t <= radius; ++t) window_[t + radius] = slot(n + t);
+    for (int c = 0; c < channels_; ++c) {
+      const int start = c * width_ + pad_;
+      sumSpan(window_.data() + radius, filter_, {start + span.first, start + span.end}, sums_.data());
+    }
+  }
+  const float* sums(int channel) const { return sums_.data() + channel * width_ + pad_; }
 
  private:
-  int radius_;
-  std::vector<const float*> rows_;
+  int slotOf(int n) const { return (n + slots_) % slots_; }
+  float* slot(int n) { return rows_.data() + static_cast<std::int64_t>(slotOf(n)) * channels_ * width_; }
+
+  const SymmetricFilter& filter_;
+  int channels_, pad_, width_, slots_;
+  AlignedVector<float> rows_;
+  std::vector<CellSpan> spans_;
+  AlignedVector<float> sums_;
+  std::vector<const float*> window_;
 };
 
-}  // namespace
-
-SplatLayer::SplatLayer(const Vec3i& size, int channels, int radius)
-    : stride_(static_cast<std::int64_t>(channels) * paddedWidth(size.x, radius)),
-      values_(static_cast<std::size_t>(stride_) * size.y, 0.f),
-      used_(size.y) {}
-
-void SplatLayer::clear() {
-  for (int j = 0; j < static_cast<int>(used_.size()); ++j) {
-    if (used_[j].empty()) continue;
-    std::fill_n(row(j), stride_, 0.f);
-    used_[j] = {};
-  }
-}
-
-/// Blurs one layer along x and y. Along x each row goes from cells side by side to channels side by side, each channel
-/// with its padding.
+/// Makes a layer's rows, blurs them along x and y and puts them into the caller's memory.
 class LayerBlur {
  public:
   LayerBlur(const BlurTask& task, std::vector<CellSpan>& spans)
       : task_(task),
         spans_(spans),
-        pad_(padding(task.filter.radius())),
-        width_(paddedWidth(task.size.x, task.filter.radius())),
-        lines_(static_cast<std::size_t>(task.channels) * width_, 0.f),
-        empty_(static_cast<std::size_t>(task.channels) * width_, 0.f),
-        sums_(width_, 0.f),
-        window_(task.filter.radius()) {}
+        ring_(task),
+        made_(static_cast<std::size_t>(task.channels) * (task.size.x + 1), 0.f),
+        lines_(static_cast<std::size_t>(task.channels) * ring_.width(), 0.f),
+        window_(2 * task.filter.radius() + 1) {}
 
-  void run(int k, SplatLayer& layer) {
-    for (int j = 0; j < task_.size.y; ++j)
-      if (!layer.used_[j].empty()) alongX(layer.row(j), layer.used_[j]);
-    for (int j = 0; j < task_.size.y; ++j) alongY(layer, j, k);
+  void run(int k) {
+    const int radius = task_.filter.radius();
+    for (int j = -radius; j < radius; ++j) take(j, k);
+    for (int j = 0; j < task_.size.y; ++j) {
+      take(j + radius, k);
+      const CellSpan reached = ring_.reached();
+      spans_[j + static_cast<std::int64_t>(task_.size.y) * k] = reached;
+      if (reached.empty()) continue;
+      runWide([&] { ring_.sumAround(j, reached); });
+      for (int c = 0; c < task_.channels; ++c)
+        std::copy(ring_.sums(c) + reached.first, ring_.sums(c) + reached.end, task_.memory(c, j, k) + reached.first);
+    }
   }
 
  private:
-  CellSpan widened(const CellSpan& span) const {
+  void take(int j, int k) {
+    const bool inside = j >= 0 && j < task_.size.y;
+    const CellSpan made = inside ? task_.fill(j, k, made_.data()) : CellSpan{};
+    if (made.empty()) return ring_.begin(j, {});
     const int radius = task_.filter.radius();
-    return {std::max(0, span.first - radius), std::min(task_.size.x, span.end + radius)};
+    const CellSpan reached{std::max(0, made.first - radius), std::min(task_.size.x, made.end + radius)};
+    ring_.begin(j, reached);
+    runWide([&] { blurAlongX(j, made, reached); });
   }
 
   /// From cells side by side to a line for each channel.
   template <int channels>
-  void takeApart(const float* row, const CellSpan& used) {
+  void takeApart(const CellSpan& made) {
     for (int c = 0; c < channels; ++c) {
-      float* line = lines_.data() + c * width_ + pad_;
-      for (int i = used.first; i < used.end; ++i) line[i] = row[channels * i + c];
+      float* line = lines_.data() + c * ring_.width() + ring_.pad();
+      for (int i = made.first; i < made.end; ++i) line[i] = made_[channels * i + c];
     }
+    std::fill(made_.begin() + channels * made.first, made_.begin() + channels * made.end, 0.f);
   }
 
-  void alongX(float* row, CellSpan& used) {
-    const int channels = task_.channels, radius = task_.filter.radius();
-    const CellSpan reached = widened(used);
-    channels == 4 ? takeApart<4>(row, used) : takeApart<1>(row, used);
-    std::fill(row + channels * used.first, row + channels * used.end, 0.f);
-    for (int c = 0; c < channels; ++c) {
-      float* line = lines_.data() + c * width_ + pad_;
-      for (int t = -radius; t <= radius; ++t) window_[t] = line + t;
-      sumSpan(window_.middle(), task_.filter, reached, row + c * width_ + pad_);  // beyond the span they are not used
-      std::fill(line + used.first, line + used.end, 0.f);
-    }
-    used = reached;
-  }
-
-  void alongY(const SplatLayer& layer, int j, int k) {
+  void blurAlongX(int j, const CellSpan& made, const CellSpan& reached) {
     const int radius = task_.filter.radius();
-    CellSpan reached;
-    for (int t = std::max(-radius, -j); t <= std::min(radius, task_.size.y - 1 - j); ++t)
-      reached.include(layer.used_[j + t]);
-    spans_[j + static_cast<std::int64_t>(task_.size.y) * k] = reached;
-    if (reached.empty()) return;
+    task_.channels == 4 ? takeApart<4>(made) : takeApart<1>(made);
     for (int c = 0; c < task_.channels; ++c) {
-      for (int t = -radius; t <= radius; ++t) {
-        const bool used = j + t >= 0 && j + t < task_.size.y && !layer.used_[j + t].empty();
-        window_[t] = (used ? layer.row(j + t) : empty_.data()) + c * width_ + pad_;
-      }
-      sumSpan(window_.middle(), task_.filter, reached, sums_.data());
-      std::memcpy(task_.memory(c, j, k) + reached.first, sums_.data() + reached.first,
-                  sizeof(float) * (reached.end - reached.first));
+      float* line = lines_.data() + c * ring_.width() + ring_.pad();
+      for (int t = -radius; t <= radius; ++t) window_[t + radius] = line + t;
+      sumSpan(window_.data() + radius, task_.filter, reached,
+              ring_.row(j, c));  // what lies beyond the span is not used
+      std::fill(line + made.first, line + made.end, 0.f);
     }
   }
 
   const BlurTask& task_;
   std::vector<CellSpan>& spans_;
-  int pad_, width_;
-  AlignedVector<float> lines_, empty_, sums_;
-  RowWindow window_;
+  RowRing ring_;
+  AlignedVector<float> made_, lines_;
+  std::vector<const float*> window_;
 };
 
-namespace {
-
-/// Blurs the rows of one j along z and hands them out: the rows of the window are copies, since the place of the
-/// finished ones is the caller's to use.
+/// Blurs the rows of one j along z and hands them out: those of the ring are copies, since the place of the finished
+/// ones is the caller's to use.
 class ColumnBlur {
  public:
   ColumnBlur(const BlurTask& task, const std::vector<CellSpan>& spans)
-      : task_(task),
-        spans_(spans),
-        pad_(padding(task.filter.radius())),
-        width_(paddedWidth(task.size.x, task.filter.radius())),
-        slots_(2 * task.filter.radius() + 1),
-        copies_(static_cast<std::size_t>(rowFloats()) * slots_, 0.f),
-        copied_(slots_),
-        sums_(rowFloats(), 0.f),
-        blurred_(task.channels),
-        window_(task.filter.radius()) {
-    for (int c = 0; c < task.channels; ++c) blurred_[c] = sums_.data() + c * width_ + pad_;
+      : task_(task), spans_(spans), ring_(task), blurred_(task.channels) {
+    for (int c = 0; c < task.channels; ++c) blurred_[c] = ring_.sums(c);
   }
 
   void run(int j) {
-    const int radius = task_.filter.radius(), layers = task_.size.z;
+    const int radius = task_.filter.radius();
     for (int k = -radius; k < radius; ++k) take(j, k);
-    for (int k = 0; k < layers; ++k) {
+    for (int k = 0; k < task_.size.z; ++k) {
       take(j, k + radius);
-      CellSpan reached;
-      for (const CellSpan& span : copied_) reached.include(span);
-      if (!reached.empty()) runWide([&] { sum(k, reached); });
+      const CellSpan reached = ring_.reached();
+      if (!reached.empty()) runWide([&] { ring_.sumAround(k, reached); });
       task_.finish(j, k, reached, blurred_.data());
     }
   }
 
  private:
-  std::int64_t rowFloats() const { return static_cast<std::int64_t>(task_.channels) * width_; }
-  int slotOf(int k) const { return (k + slots_) % slots_; }
-  float* copy(int k, int channel) { return copies_.data() + rowFloats() * slotOf(k) + channel * width_ + pad_; }
-
-  /// Copies row (j, k), empty outside the layers, into its slot of the ring.
   void take(int j, int k) {
-    CellSpan& old = copied_[slotOf(k)];
     const bool inside = k >= 0 && k < task_.size.z;
     const CellSpan span = inside ? spans_[j + static_cast<std::int64_t>(task_.size.y) * k] : CellSpan{};
+    ring_.begin(k, span);
+    if (span.empty()) return;
     for (int c = 0; c < task_.channels; ++c) {
-      float* to = copy(k, c);
-      if (span.empty() || old.first < span.first || old.end > span.end) std::fill(to + old.first, to + old.end, 0.f);
-      if (span.empty()) continue;
       const float* from = task_.memory(c, j, k);
-      std::memcpy(to + span.first, from + span.first, sizeof(float) * (span.end - span.first));
-    }
-    old = span;
-  }
-
-  void sum(int k, const CellSpan& reached) {
-    for (int c = 0; c < task_.channels; ++c) {
-      for (int t = -task_.filter.radius(); t <= task_.filter.radius(); ++t) window_[t] = copy(k + t, c);
-      sumSpan(window_.middle(), task_.filter, reached, sums_.data() + c * width_ + pad_);
+      std::copy(from + span.first, from + span.end, ring_.row(k, c) + span.first);
     }
   }
 
   const BlurTask& task_;
   const std::vector<CellSpan>& spans_;
-  int pad_, width_, slots_;
-  AlignedVector<float> copies_;
-  std::vector<CellSpan> copied_;
-  AlignedVector<float> sums_;
+  RowRing ring_;
   std::vector<const float*> blurred_;
-  RowWindow window_;
 };
 
 constexpr int tasksPerAxis = 32;  // enough for many cores; each has scratch memory of its own
@@ -222,13 +210,8 @@ void blurSeparably(const BlurTask& task) {
   CHECK(task.channels == 1 || task.channels == 4, "{} channels", task.channels);
   std::vector<CellSpan> spans(static_cast<std::size_t>(task.size.y) * task.size.z);
   parallelFor(0, task.size.z, grainOf(task.size.z), [&](std::int64_t first, std::int64_t last) {
-    SplatLayer layer(task.size, task.channels, task.filter.radius());
     LayerBlur blur(task, spans);
-    for (int k = static_cast<int>(first); k < last; ++k) {
-      task.fill(k, layer);
-      runWide([&] { blur.run(k, layer); });
-      layer.clear();
-    }
+    for (int k = static_cast<int>(first); k < last; ++k) blur.run(k);
   });
   parallelFor(0, task.size.y, grainOf(task.size.y), [&](std::int64_t first, std::int64_t last) {
     ColumnBlur blur(task, spans);
@@ -247,39 +230,42 @@ struct Amounts<4> {
   typedef float type __attribute__((vector_size(16), aligned(4), may_alias));
 };
 
-/// Adds a point's shares of two rows to one layer, times `weight`.
+/// Adds to one row the points of one bin, of whose shares along y and z the row has those on the given sides.
 template <int channels>
-inline void addPoint(const LayerSplat<channels>& splat, const SplatPoint<channels>& point, float weight,
-                     SplatLayer& layer) {
-  using Vector = typename Amounts<channels>::type;
-  const auto& [x, y, z] = point.share;
-  const Vector amount = *reinterpret_cast<const Vector*>(point.amount.data()) * weight;
-  const float left = (1 - x.fraction) * splat.gain[0][x.lower];
-  const float right = x.fraction > 0 ? x.fraction * splat.gain[0][x.lower + 1] : 0;
-  const int cell = x.lower - splat.firstCell;
-  const CellSpan span{cell, cell + (x.fraction > 0 ? 2 : 1)};
-  const auto addToRow = [&](int j, float share) {
-    const float shareOfRow = share * splat.gain[1][j];
-    Vector* cells = reinterpret_cast<Vector*>(layer.row(j - splat.firstRow)) + cell;
-    cells[0] += amount * (shareOfRow * left);
-    cells[1] += amount * (shareOfRow * right);
-    layer.use(j - splat.firstRow, span);
-  };
-  addToRow(y.lower, 1 - y.fraction);
-  if (y.fraction > 0) addToRow(y.lower + 1, y.fraction);
+inline void addBin(const RowSplat<channels>& splat, std::int64_t bin, bool upperY, bool upperZ, float gain,
+                   float* cells, CellSpan& filled) {
+  using Amount = typename Amounts<channels>::type;
+  for (const auto& point : splat.points.bin(bin)) {
+    const auto& [x, y, z] = point.share;
+    const float weight = (upperY ? y.fraction : 1 - y.fraction) * (upperZ ? z.fraction : 1 - z.fraction) * gain;
+    if (weight == 0) continue;
+    const bool two = x.fraction > 0;
+    const float left = (1 - x.fraction) * splat.gain[0][x.lower] * weight;
+    const float right = two ? x.fraction * splat.gain[0][x.lower + 1] * weight : 0;
+    const Amount amount = *reinterpret_cast<const Amount*>(point.amount.data());
+    const int cell = x.lower - splat.firstCell;
+    Amount* at = reinterpret_cast<Amount*>(cells) + cell;
+    at[0] += amount * left;
+    at[1] += amount * right;
+    filled.include({cell, cell + 1 + two});
+  }
 }
 
 }  // namespace
 
 template <int channels>
-void LayerSplat<channels>::operator()(int k, SplatLayer& layer) const {
-  if (k > 0)
-    for (const auto& point : points.bin(k - 1))
-      if (point.share[2].fraction > 0) addPoint(*this, point, point.share[2].fraction * gain[2][k], layer);
-  for (const auto& point : points.bin(k)) addPoint(*this, point, (1 - point.share[2].fraction) * gain[2][k], layer);
+CellSpan RowSplat<channels>::operator()(int j, int k, float* cells) const {
+  const std::int64_t rows = std::ssize(gain[1]), bin = j + rows * k;
+  const float weight = gain[1][j] * gain[2][k];
+  CellSpan filled;
+  if (j > 0 && k > 0) addBin(*this, bin - rows - 1, true, true, weight, cells, filled);
+  if (k > 0) addBin(*this, bin - rows, false, true, weight, cells, filled);
+  if (j > 0) addBin(*this, bin - 1, true, false, weight, cells, filled);
+  addBin(*this, bin, false, false, weight, cells, filled);
+  return filled;
 }
 
-template struct LayerSplat<1>;
-template struct LayerSplat<4>;
+template struct RowSplat<1>;
+template struct RowSplat<4>;
 
 }  // namespace brisance

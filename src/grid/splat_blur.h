@@ -7,7 +7,6 @@
 #include <functional>
 #include <vector>
 
-#include "base/aligned.h"
 #include "base/counting_sort.h"
 #include "base/math.h"
 #include "grid/symmetric_filter.h"
@@ -42,49 +41,36 @@ struct SplatPoint {
   std::array<float, channels> amount;
 };
 
-/// One layer of cells: for each row j the amounts of its cells, those of one cell side by side.
-class SplatLayer {
- public:
-  SplatLayer(const Vec3i& size, int channels, int radius);
-  float* row(int j) { return values_.data() + stride_ * j; }
-  const float* row(int j) const { return values_.data() + stride_ * j; }
-  /// Tells that some cells of row j are no longer empty.
-  void use(int j, const CellSpan& cells) { used_[j].include(cells); }
-  const CellSpan& used(int j) const { return used_[j]; }
-  void clear();
-
- private:
-  friend class LayerBlur;
-  std::int64_t stride_;  // between rows
-  AlignedVector<float> values_;
-  std::vector<CellSpan> used_;
-};
-
-/// A field of `channels` values per cell, blurred along all axes. It is made layer by layer (constant k), kept between
-/// the passes in memory of the caller's, and handed out row by row.
+/// A field of `channels` values per cell, blurred along all axes. It is made row by row, kept between the passes
+/// in memory of the caller's, and handed out row by row; what lies in between fits a cache.
 struct BlurTask {
   Vec3i size;
   int channels = 1;  ///< 1 or 4
   SymmetricFilter filter;
-  /// Puts the field's layer k into an empty layer.
-  std::function<void(int k, SplatLayer& layer)> fill;
+  /// Adds the field's row (j, k) to empty cells, the channels of one cell side by side, and tells which it has filled.
+  std::function<CellSpan(int j, int k, float* cells)> fill;
   /// Memory of size.x floats for row (j, k) of a channel; the row's finish may overwrite it.
   std::function<float*(int channel, int j, int k)> memory;
   /// Takes row (j, k): cells outside `span` are zero; channel c's cell i is blurred[c][i]. Called once for every row.
   std::function<void(int j, int k, const CellSpan& span, const float* const* blurred)> finish;
 };
-/// The callbacks come from several threads at once, each for rows or layers of its own.
+/// The callbacks come from several threads at once, each for rows of its own.
 void blurSeparably(const BlurTask& task);
 
-/// Adds to a layer its shares of the points, which are sorted by share[2].lower; `gain[axis]` multiplies each cell's
-/// shares. The layer's row 0 begins at cell (`firstCell`, `firstRow`) of those that the points count. The sums are made
-/// in the points' order.
+/// Points in order of the row of cells of their lower neighbours.
 template <int channels>
-struct LayerSplat {
+std::int64_t rowOf(const SplatPoint<channels>& point, int rowsPerLayer) {
+  return point.share[1].lower + static_cast<std::int64_t>(rowsPerLayer) * point.share[2].lower;
+}
+
+/// Adds to row (j, k) its shares of the points, which are sorted by rowOf; `gain[axis]` multiplies each cell's shares.
+/// `cells` begins at cell `firstCell` of those that the points count. The sums are made in the points' order.
+template <int channels>
+struct RowSplat {
   const Binned<SplatPoint<channels>>& points;
   const std::array<std::vector<float>, 3>& gain;
-  int firstCell = 0, firstRow = 0;
-  void operator()(int k, SplatLayer& layer) const;
+  int firstCell = 0;
+  CellSpan operator()(int j, int k, float* cells) const;
 };
 
 }  // namespace brisance

@@ -49,11 +49,9 @@ bool hasSolids(const Grid3<std::uint8_t>& solid) {
 void normalizeByGas(const Grid3<std::uint8_t>& solid, const SymmetricFilter& filter, Grid3<float>& perSource) {
   perSource = Grid3<float>(solid.size, solid.origin, solid.cellSize);
   BlurTask task{.size = solid.size, .channels = 1, .filter = filter, .fill = {}, .memory = {}, .finish = {}};
-  task.fill = [&](int k, SplatLayer& layer) {
-    for (int j = 0; j < solid.size.y; ++j) {
-      for (int i = 0; i < solid.size.x; ++i) layer.row(j)[i] = solid(i, j, k) ? 0.f : 1.f;
-      layer.use(j, {0, solid.size.x});
-    }
+  task.fill = [&](int j, int k, float* cells) {
+    for (int i = 0; i < solid.size.x; ++i) cells[i] = solid(i, j, k) ? 0.f : 1.f;
+    return CellSpan{0, solid.size.x};
   };
   task.memory = [&](int, int j, int k) { return &perSource(0, j, k); };
   task.finish = [&](int j, int k, const CellSpan&, const float* const* share) {
@@ -101,11 +99,6 @@ class DepositPoints {
   bool anySolids_;
 };
 
-void multiplyUsed(const Grid3<float>& factor, int k, SplatLayer& layer) {
-  for (int j = 0; j < factor.size.y; ++j)
-    for (int i = layer.used(j).first; i < layer.used(j).end; ++i) layer.row(j)[i] *= factor(i, j, k);
-}
-
 void renewNormalizer(const Grid3<std::uint8_t>& solid, const SymmetricFilter& filter, double kernelCells,
                      DepositScratch& scratch) {
   if (scratch.solid == solid && scratch.kernelCells == kernelCells) return;
@@ -127,16 +120,19 @@ void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt
   const auto make = [&](std::int64_t n, SplatPoint<1>& point) -> std::int64_t {
     if (!(burnt[n] > 0)) return -1;
     point = {points.shares(particles.position[n]), {static_cast<float>(burnt[n])}};
-    return point.share[2].lower;
+    return rowOf(point, solid.size.y);
   };
-  sortIntoBins(static_cast<std::int64_t>(burnt.size()), solid.size.z, make, scratch.points);
+  sortIntoBins(static_cast<std::int64_t>(burnt.size()), static_cast<std::int64_t>(solid.size.y) * solid.size.z, make,
+               scratch.points);
 
   std::array<std::vector<float>, 3> gain;  // what solids do not keep the box's faces do not either
   for (int axis = 0; axis < 3; ++axis)
     gain[axis] = solids ? std::vector<float>(solid.size[axis], 1.f) : task.filter.gainInside(solid.size[axis]);
-  task.fill = [&](int k, SplatLayer& layer) {
-    LayerSplat<1>{scratch.points, gain}(k, layer);
-    if (solids) multiplyUsed(scratch.perSource, k, layer);
+  const RowSplat<1> splat{scratch.points, gain};
+  task.fill = [&](int j, int k, float* cells) {
+    const CellSpan filled = splat(j, k, cells);
+    for (int i = filled.first; solids && i < filled.end; ++i) cells[i] *= scratch.perSource(i, j, k);
+    return filled;
   };
   task.memory = [&](int, int j, int k) { return &rate(0, j, k); };
   const float perVolume = static_cast<float>(1 / (dt * rate.cellSize * rate.cellSize * rate.cellSize));

@@ -39,8 +39,9 @@ bool moveThrough(const MacVelocity& openShare, const Vec3d& from, const Vec3d& t
   const double h = openShare.u.cellSize;
   const Vec3d corner = openShare.u.origin - Vec3d(0, .5, .5) * h;
   constexpr double justShort = 1e-6;  // of a cell
-  Vec3d p = (from - corner) / h;
-  const Vec3d goal = (to - corner) / h;
+  const double inverse = 1 / h;       // as in BlockStep, which must find particles in the same cells
+  Vec3d p = (from - corner) * inverse;
+  const Vec3d goal = (to - corner) * inverse;
   for (int axis = 0; axis < 3; ++axis) {
     const Grid3<float>& open = openShare.component(axis);
     int cell[3] = {static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z)};
@@ -114,7 +115,7 @@ class BlockStep {
         drag_(settings.drag * settings.radius * settings.radius),
         kept_(keptDifference(settings, dt)),
         corner_(gas.openShare.u.origin - Vec3d(0, .5, .5) * gas.openShare.u.cellSize),
-        cellSize_(gas.openShare.u.cellSize) {}
+        inverse_(1 / gas.openShare.u.cellSize) {}
 
   void run(std::int64_t first, int count, std::uint8_t* gone) {
     const std::span<const Vec3d> places(p_.position.data() + first, static_cast<std::size_t>(count));
@@ -151,8 +152,8 @@ class BlockStep {
     std::fill_n(block_.sameCell, count, std::uint8_t{1});
     for (int axis = 0; axis < 3; ++axis)
       for (int n = 0; n < count; ++n) {
-        const double from = (places[n][axis] - corner_[axis]) / cellSize_;
-        const double to = (places[n][axis] + block_.moved[axis][n] - corner_[axis]) / cellSize_;
+        const double from = (places[n][axis] - corner_[axis]) * inverse_;
+        const double to = (places[n][axis] + block_.moved[axis][n] - corner_[axis]) * inverse_;
         block_.sameCell[n] &= static_cast<std::uint8_t>(std::floor(from) == std::floor(to));
       }
   }
@@ -175,7 +176,7 @@ class BlockStep {
   const BurnSettings& settings_;
   double dt_, drag_, kept_;
   Vec3d corner_;
-  double cellSize_;
+  double inverse_;
   Block block_;
 };
 }  // namespace
