@@ -69,6 +69,7 @@ ParticleSet burningBall(const BurnSettings& settings) {
     fuel.temperature = 1200;
     fuel.ignited = true;
     append(particles, fuel);
+    particles.sootMass.back() = settings.sootThreshold * random.uniform(4 * n + 2);  // some are about to make soot
   }
   return particles;
 }

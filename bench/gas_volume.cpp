@@ -44,7 +44,7 @@ ParticleVolumeSettings volumeSettings(double deviation, int filterSize) {
   return {{volumeCells, volumeCells, volumeCells}, {0, 0, 0}, cellSize, deviation * cellSize, filterSize};
 }
 
-/// The definition in double, at one cell away from the faces.
+/// The definition in double, at one cell so far from the faces that none of its sources is narrowed by them.
 double exactDensity(const FrameParticles& particles, const Vec3i& cell, double deviation, int radius) {
   const auto weight = [&](int t) {
     return std::abs(t) > radius ? 0 : std::exp(-0.5 * t * t / (deviation * deviation));
@@ -68,7 +68,7 @@ double errorOf(const ParticleVolume& volume, const FrameParticles& particles, do
   double error = 0, largest = 0;
   for (std::uint64_t n = 0; n < 10; ++n) {
     const auto place = [&](std::uint64_t axis) {
-      return radius + static_cast<int>(random.below(volumeCells - 2 * radius, 3 * n + axis));
+      return 2 * radius + static_cast<int>(random.below(volumeCells - 4 * radius, 3 * n + axis));
     };
     const Vec3i cell(place(0), place(1), place(2));
     const double exact = exactDensity(particles, cell, deviation, radius);
