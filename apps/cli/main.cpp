@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "base/check.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "commands.h"
 #include "interruption.h"
@@ -58,6 +59,7 @@ int sayHowToContinue(const Options& options) {
 }
 
 int program(int count, const char* const* arguments) {
+  keepFreedMemory();
   CommandLine line;
   try {
     line = parseCommandLine(count, arguments);
