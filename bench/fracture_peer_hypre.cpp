@@ -115,7 +115,7 @@ std::vector<double> hypreFiedlerVector(const FractureGraph& graph) {
   HYPRE_LOBPCGSetPrecondUsageMode(lobpcg, 1);
   HYPRE_LOBPCGSetTol(lobpcg, 0);
   HYPRE_LOBPCGSetRTol(lobpcg, 1e-6);
-  HYPRE_LOBPCGSetPrintLevel(lobpcg, getenv("VERB") ? 2 : 0);
+  HYPRE_LOBPCGSetPrintLevel(lobpcg, 0);
   HYPRE_LOBPCGSetPrecond(lobpcg, reinterpret_cast<HYPRE_PtrToSolverFcn>(HYPRE_BoomerAMGSolve),
                          reinterpret_cast<HYPRE_PtrToSolverFcn>(HYPRE_BoomerAMGSetup), amg);
   HYPRE_LOBPCGSetup(lobpcg, reinterpret_cast<HYPRE_Matrix>(a), reinterpret_cast<HYPRE_Vector>(parallel(ones)),

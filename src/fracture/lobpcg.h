@@ -65,9 +65,6 @@ class Lobpcg {
       const int iterations = report.iterations + 1;
       report = residual();
       report.iterations = iterations;
-      if (getenv("VERB"))
-        fprintf(stderr, "  n=%zu it %d lam %.8g %.8g res %.2e %.2e\n", n_, iterations, report.eigenvalues[0],
-                report.eigenvalues[1], report.residuals[0], report.residuals[1]);
     }
     return report;
   }
