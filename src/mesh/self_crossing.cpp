@@ -7,7 +7,7 @@ namespace brisance {
 namespace {
 
 /// Boxes looked at: shared out in all, and for each triangle; a well-made mesh needs some eighty for each.
-constexpr std::size_t mostBoxes = 20'000'000, boxesPerTriangle = 256;
+constexpr std::size_t mostBoxes = 8'000'000, boxesPerTriangle = 256;
 constexpr std::int64_t blockSize = 4096;
 constexpr double certain = 1e-11;  // of the cube of the length: a volume that rounding cannot make
 
