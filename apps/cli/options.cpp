@@ -124,7 +124,7 @@ void addFractureCommand(CLI::App& app, RawOptions& raw) {
 
 void addLookingCommands(CLI::App& app, RawOptions& raw) {
   CLI::App* info = addCommand(app, raw, "info", "what a run, a scene or a mesh holds");
-  addPath(info, raw, "PATH", "a run directory, a scene file or an OBJ file");
+  addPath(info, raw, "PATH", "a run directory, a scene file or a mesh");
   CLI::App* verify = addCommand(app, raw, "verify", "every file of a run against the hashes of its manifest");
   addPath(verify, raw, "RUN", "the run directory");
   CLI::App* reference = addCommand(app, raw, "reference", "print what is known of the scene file's keys");
