@@ -52,7 +52,7 @@ std::vector<FractureGraph> family() {
 }
 
 int componentsOf(const FractureGraph& graph) {
-  return islandCount(graph, {std::vector<int>(static_cast<std::size_t>(graph.nodeCount()), 0), 1});
+  return islands(graph, {std::vector<int>(static_cast<std::size_t>(graph.nodeCount()), 0), 1});
 }
 
 TEST(Laplacian, HasTheThesisExamplesEigenvalues) {

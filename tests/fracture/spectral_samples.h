@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "fracture/fracture_graph.h"
+#include "fracture/partition_facts.h"
 
 namespace brisance {
 
@@ -73,28 +74,6 @@ inline TriangleMesh cubeSphere(int n) {
                                               : Triangle{corners[(c + 1) % 4], corners[c], middle});
         }
   return mesh;
-}
-
-/// Number of connected islands over all pieces; as many as pieces when each is connected.
-inline int islandCount(const FractureGraph& graph, const Partition& partition) {
-  std::vector<bool> seen(static_cast<std::size_t>(graph.nodeCount()), false);
-  int count = 0;
-  for (std::uint32_t start = 0; start < seen.size(); ++start) {
-    if (seen[start]) continue;
-    ++count;
-    std::vector<std::uint32_t> open{start};
-    seen[start] = true;
-    while (!open.empty()) {
-      const std::uint32_t node = open.back();
-      open.pop_back();
-      for (const std::uint32_t next : graph.neighbours(node))
-        if (!seen[next] && partition.pieceOf[next] == partition.pieceOf[node]) {
-          seen[next] = true;
-          open.push_back(next);
-        }
-    }
-  }
-  return count;
 }
 
 inline std::vector<int> pieceSizes(const Partition& partition) {

@@ -20,7 +20,7 @@ void expectPieces(const TriangleMesh& mesh, const Partition& partition, int piec
   ASSERT_EQ(partition.pieceOf.size(), mesh.triangles.size());
   EXPECT_EQ(partition.count, pieces);
   for (const int size : pieceSizes(partition)) EXPECT_GT(size, 0);
-  EXPECT_EQ(islandCount(triangleGraph(mesh), partition), pieces);
+  EXPECT_EQ(islands(triangleGraph(mesh), partition), pieces);
 }
 
 Vec3d middleOf(const TriangleMesh& mesh, std::size_t t) {
@@ -202,7 +202,7 @@ TEST(Spectral, CutsTheNodesOfAnyGraph) {
   for (const int pieces : {1, 3, 10, 300}) {
     const Partition partition = partitionSpectral(chain, pieces);
     EXPECT_EQ(partition.count, pieces);
-    EXPECT_EQ(islandCount(chain, partition), pieces);
+    EXPECT_EQ(islands(chain, partition), pieces);
   }
   EXPECT_THROW(partitionSpectral(chain, 301), InputError);
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/check.h"
+#include "mesh/flat_samples.h"
 #include "mesh/lattice_points.h"
 #include "mesh/mesh_topology.h"
 
@@ -197,17 +198,8 @@ TEST(Delaunay, NoCircleHoldsAnotherPoint) {
 TEST(Delaunay, DoesNotDependOnTheOrderOfThePoints) {
   const std::vector<Vec2d> points = panePoints(1, 1, 100, 0, 3);
   const std::vector<Vec2d> reversed(points.rbegin(), points.rend());
-  const auto shapes = [](const FlatMesh& mesh) {
-    std::set<std::set<std::pair<double, double>>> all;
-    for (const Triangle& t : mesh.triangles) {
-      std::set<std::pair<double, double>> corners;
-      for (const std::uint32_t v : t) corners.insert({mesh.points[v].x, mesh.points[v].y});
-      all.insert(corners);
-    }
-    return all;
-  };
   // Points in general position have one Delaunay triangulation.
-  EXPECT_EQ(shapes(triangulate(points, Delaunay{}, 1)), shapes(triangulate(reversed, Delaunay{}, 1)));
+  EXPECT_EQ(shapesOf(triangulate(points, Delaunay{}, 1)), shapesOf(triangulate(reversed, Delaunay{}, 1)));
 }
 
 TEST(Delaunay, HasTheLargestSmallestAngle) {
