@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "fluid/forces.h"
+#include "fluid/moving_solids.h"
 #include "fluid/temperature.h"
 
 namespace brisance {
@@ -46,9 +47,11 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
   advectScalar(gas.soot, gas, settings, 0, dt, scratch.advection);
   advectScalar(gas.flame, gas, settings, 0, dt, scratch.advection);
   addBurnt(gas, sootPerMass, settings.flameLifetime, dt);
+  takeGasVelocity(gas);
   advectVelocity(gas, settings, dt, scratch.advection);
   addForces(gas, settings, dt);
   confineVorticity(gas, settings, dt);
+  takeMeanVelocity(gas);
   report.pressure = project(gas, settings, dt, scratch.pressure);
   report.divergence = divergenceError(gas);
   report.volume.in = dt * createdVolume(gas, settings);
