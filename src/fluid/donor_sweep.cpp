@@ -81,10 +81,9 @@ float weightOf(const FluidSettings& settings) {
 
 /// Of the heat above ambient; in K, `created` and `outward` in K m/s.
 struct PlaneSums {
-  double before = 0, after = 0, heated = 0, radiated = 0, created = 0, outward = 0;
+  double gained = 0, heated = 0, radiated = 0, created = 0, outward = 0;
   void operator+=(const PlaneSums& o) {
-    before += o.before;
-    after += o.after;
+    gained += o.gained;
     heated += o.heated;
     radiated += o.radiated;
     created += o.created;
@@ -159,8 +158,7 @@ class ScalarSweep {
     const HeatRow::Sums heat = heat_(T, H, inside, n, room);
     sums.heated += heat.heated;
     sums.radiated += heat.radiated;
-    sums.before += laneSum(n, [&](std::int64_t i) { return inside[i] ? 0 : s.here[i] - ambient_; });
-    sums.after += laneSum(n, [&](std::int64_t i) { return inside[i] ? 0 : T[i] - ambient_; });
+    sums.gained += laneSum(n, [&](std::int64_t i) { return T[i] - s.here[i]; });  // 0 in solids
     sums.created +=
         laneSum(n, [&](std::int64_t i) { return inside[i] ? 0 : (s.here[i] - ambient_) * sides.divergence(i); });
   }
@@ -218,7 +216,7 @@ Balance sweepScalars(FluidState& gas, const FluidSettings& settings, const Burni
   const double h = settings.cellSize, perKelvin = settings.heatCapacity * h * h * h;
   const double perFlux = settings.heatCapacity * dt * h * h;
   return {.in = perKelvin * sums.heated + perFlux * sums.created,
-          .gained = perKelvin * (sums.after - sums.before),
+          .gained = perKelvin * sums.gained,
           .out = perFlux * sums.outward,
           .lost = perKelvin * sums.radiated};
 }

@@ -83,8 +83,9 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
   }
   confineVorticity(gas, settings, dt, scratch.sweep.velocity);
   report.pressure = project(gas, settings, dt, scratch.pressure);
-  report.divergence = divergenceError(gas);
-  report.volume.in = dt * createdVolume(gas, settings);
+  const Continuity continuity = continuityOf(gas);
+  report.divergence = continuity.error;
+  report.volume.in = dt * continuity.created;
   report.volume.out = dt * outwardVolume(gas, settings);
   return report;
 }

@@ -90,10 +90,11 @@ class Confinement {
       const float vz = (vUp[i] + vUpNorth[i]) - (vDown[i] + vDownNorth[i]);
       const float uz = (uUp[i] + uUp[i + 1]) - (uDown[i] + uDown[i + 1]), wx = w[i + 1] - w[i - 1];
       const float vx = v[i + 1] - v[i - 1], uy = (uNorth[i] + uNorth[i + 1]) - (uSouth[i] + uSouth[i + 1]);
-      x[i] = (wy - vz) * perDifference_;
-      y[i] = (uz - wx) * perDifference_;
-      z[i] = (vx - uy) * perDifference_;
-      length[i] = std::sqrt((x[i] * x[i] + y[i] * y[i]) + z[i] * z[i]);
+      const float ox = (wy - vz) * perDifference_, oy = (uz - wx) * perDifference_, oz = (vx - uy) * perDifference_;
+      x[i] = ox;
+      y[i] = oy;
+      z[i] = oz;
+      length[i] = std::sqrt((ox * ox + oy * oy) + oz * oz);
     }
   }
 
