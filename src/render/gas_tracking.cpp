@@ -41,7 +41,7 @@ float GasMedium::distanceAtOpacity(const GasPath& path, float transmittance, flo
   runWide([&] {
     alongSteps(path, [&](const GasStep& step) {
       const float own = optics_.extinction(sampleAt(step.place).density()) * (step.to - step.from);
-      const bool passed = depth + own >= wanted;
+      const bool passed = own > 0 && depth + own >= wanted;
       distance = passed ? step.from + (step.to - step.from) * (wanted - depth) / own : step.to;
       depth += own;
       return !passed;

@@ -277,7 +277,7 @@ Vec3f SceneGeometry::lightPassing(const Ray& ray, float distance, GlassShade gla
 
 bool SceneGeometry::touchesSameGlass(const Ray& ray, const SurfaceHit& hit) const {
   Ray around = ray;
-  around.near = hit.distance - resolution_;
+  around.near = std::max(0.0f, hit.distance - resolution_);
   RTCRay query = rayHit(around, hit.distance + resolution_).ray;
   TouchQuery touch{{}, bodies_->list, hit, dot(ray.direction, hit.normal) > 0};
   rtcOccluded1(bodies_->scene, prepared(touch, findCounterpart), &query);
