@@ -17,9 +17,9 @@ struct PressureScratch {
   CellField field, work;
 };
 
-/// Makes div u = phi over dt [s] and keeps the pressure (as the next start of conjugate_gradient). A sealed pocket with a
-/// net source cannot obey: the mean over its cells is taken from the source if the settings say so, and reported, else
-/// InputError.
+/// Makes div u = phi over dt [s] and keeps the pressure (as the next start of conjugate_gradient). A sealed pocket with
+/// a net source cannot obey: the mean over its cells is taken from the source if the settings say so, and reported,
+/// else InputError.
 PressureReport project(FluidState& gas, const FluidSettings& settings, double dt, PressureScratch& scratch);
 
 /// |div u - phi| over the cells of gas relative to |phi| (L2; absolute where phi is zero everywhere), from the velocity

@@ -12,15 +12,16 @@ namespace brisance {
 namespace {
 
 // Bytes for each thing, from the fields that hold it (world, solver scratch, frame being written).
-constexpr double gasCellMemory = 200;    // state 57, pressure and advection scratch 90, capture and checkpoint
-constexpr double volumeCellMemory = 32;  // density and colour, and their copy while blurring
-constexpr double particleMemory = 200;   // nine fields, and the frame's copy
-constexpr double pixelMemory = 32;       // colour and weights in single precision, and the encoded picture
-constexpr double baseMemory = 200e6;     // the program, its libraries, textures
-constexpr double pieceBytes = 20e3;      // a shard's mesh of some hundred triangles, on disk and in memory
-constexpr double gasCellDisk = 24;       // three scalars and a vector, before compression
-constexpr double particleDisk = 33;      // position, velocity, mass, temperature, kind
-constexpr double posedPieceDisk = 100;   // pose and velocities, per frame
+constexpr double gasCellMemory = 200;     // state 57, pressure and advection scratch 90, capture and checkpoint
+constexpr double blockedCellMemory = 80;  // where moving bodies block gas: what faces and cells are, twice
+constexpr double volumeCellMemory = 32;   // density and colour, and their copy while blurring
+constexpr double particleMemory = 200;    // nine fields, and the frame's copy
+constexpr double pixelMemory = 32;        // colour and weights in single precision, and the encoded picture
+constexpr double baseMemory = 200e6;      // the program, its libraries, textures
+constexpr double pieceBytes = 20e3;       // a shard's mesh of some hundred triangles, on disk and in memory
+constexpr double gasCellDisk = 24;        // three scalars and a vector, before compression
+constexpr double particleDisk = 33;       // position, velocity, mass, temperature, kind
+constexpr double posedPieceDisk = 100;    // pose and velocities, per frame
 constexpr double checkpointCellDisk = 57;
 constexpr double checkpointParticleDisk = 83;
 constexpr double pixelDisk = 3 + 8;    // PNG, and OpenEXR in half precision, before compression
@@ -32,7 +33,8 @@ double gigabytes(std::int64_t bytes) { return static_cast<double>(bytes) / 1e9; 
 
 double memoryOf(const Scene& scene, const SceneEstimate& cost) {
   const double pixels = static_cast<double>(scene.render.width) * scene.render.height;
-  const double simulating = static_cast<double>(cost.cells) * gasCellMemory;
+  const bool blocked = scene.simulation.bodiesInGas == BodiesInGas::block;
+  const double simulating = static_cast<double>(cost.cells) * (gasCellMemory + (blocked ? blockedCellMemory : 0));
   const double drawing = static_cast<double>(cost.volumeCells) * volumeCellMemory + pixels * pixelMemory;
   return baseMemory + std::max(simulating, drawing) + static_cast<double>(cost.particles) * particleMemory +
          static_cast<double>(cost.pieces) * pieceBytes;
