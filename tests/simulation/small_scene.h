@@ -43,4 +43,12 @@ inline SimulationSettings smallScene() {
   return s;
 }
 
+/// The same, the pieces in the way of the gas and pushed by its pressure.
+inline SimulationSettings blockingScene() {
+  SimulationSettings s = smallScene();
+  s.bodiesInGas = BodiesInGas::block;
+  s.rigid.push = Pressure{};
+  return s;
+}
+
 }  // namespace brisance::test
