@@ -14,6 +14,17 @@ inline float donorFlux(float speed, float left, float right, float upwindWeight)
   return 0.5f * (speed * (left + right) - upwindWeight * std::abs(speed) * (right - left));
 }
 
+/// At the two sides of a control volume along one axis.
+struct Sides {
+  float lower, upper;
+};
+/// What the fluxes through both sides take from a sample, less the sample times what they carry in all: h (u ds/dx) of
+/// the same scheme. `difference`: of the sample and its neighbours, upper less lower.
+inline float donorDifference(Sides speed, Sides difference, float upwindWeight) {
+  return 0.5f * ((speed.upper - upwindWeight * std::abs(speed.upper)) * difference.upper +
+                 (speed.lower + upwindWeight * std::abs(speed.lower)) * difference.lower);
+}
+
 /// Scratch of one transport step.
 struct AdvectionScratch {
   PaddedVelocity velocity;

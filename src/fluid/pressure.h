@@ -22,11 +22,15 @@ struct PressureScratch {
 /// else InputError.
 PressureReport project(FluidState& gas, const FluidSettings& settings, double dt, PressureScratch& scratch);
 
-/// |div u - phi| over the cells of gas relative to |phi| (L2; absolute where phi is zero everywhere), from the velocity
-/// itself.
-double divergenceError(const FluidState& gas);
-/// [m3/s] of gas created by the source, and leaving through the box's faces.
-double createdVolume(const FluidState& gas, const FluidSettings& settings);
+/// How well a velocity obeys its source, from itself, in double precision.
+struct Continuity {
+  double error = 0;  ///< |div u - phi| over the cells of gas relative to |phi| (L2; absolute where phi is 0 everywhere)
+  double created = 0;  ///< [m3/s] of gas, by the source
+};
+Continuity continuityOf(const FluidState& gas);
+inline double divergenceError(const FluidState& gas) { return continuityOf(gas).error; }
+inline double createdVolume(const FluidState& gas) { return continuityOf(gas).created; }
+/// [m3/s] leaving through the box's faces.
 double outwardVolume(const FluidState& gas, const FluidSettings& settings);
 
 }  // namespace brisance
