@@ -203,8 +203,14 @@ Continuity continuityOf(const FluidState& gas) {
       const double wrong = flow * perLength - phi[i];
       return inside[i] ? 0 : wrong * wrong;
     });
-    sums.source += laneSum(n.x, [&](std::int64_t i) { return inside[i] ? 0 : double(phi[i]) * phi[i]; });
-    sums.created += laneSum(n.x, [&](std::int64_t i) { return inside[i] ? 0 : phi[i]; });
+    sums.source += laneSum(n.x, [&](std::int64_t i) {
+      const double source = double(phi[i]) * phi[i];
+      return inside[i] ? 0 : source;
+    });
+    sums.created += laneSum(n.x, [&](std::int64_t i) {
+      const float source = phi[i];
+      return inside[i] ? 0 : source;
+    });
   };
   parallelFor(0, n.z, 2, [&](std::int64_t first, std::int64_t last) {
     for (int k = static_cast<int>(first); k < last; ++k)

@@ -1,7 +1,7 @@
 #include "simulation/simulate.h"
 
+#include "base/memory.h"
 #include "base/stopwatch.h"
-
 #include "frame/gltf_export.h"
 #include "simulation/world_state.h"
 
@@ -70,9 +70,12 @@ void summarise(const World& world, SimulationSummary& summary) {
 /// A frame's files, with the seconds it took.
 void writeFrame(RunDirectory& run, const World& world, SimulationSummary& summary) {
   Stopwatch watch;
-  const Frame frame = world.capture();
-  run.addFrame(frame);
-  for (const auto& [stage, seconds] : frame.report.stageSeconds) summary.stageSeconds[stage] += seconds;
+  {
+    const Frame frame = world.capture();
+    run.addFrame(frame);
+    for (const auto& [stage, seconds] : frame.report.stageSeconds) summary.stageSeconds[stage] += seconds;
+  }
+  releaseFreedMemory();
   summary.stageSeconds["write"] += watch.lap();
 }
 }  // namespace
