@@ -192,6 +192,7 @@ void collectInputs(Scene& scene) {
     if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) add(mesh->file);
   for (const auto& [name, material] : scene.render.materials)
     if (const auto* image = std::get_if<ImageTexture>(&material.diffuse)) add(image->file);
+  if (scene.render.environment.file) add(*scene.render.environment.file);
 }
 
 void checkTogether(const Scene& scene, const Places& places) {

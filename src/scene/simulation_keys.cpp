@@ -143,6 +143,8 @@ void describeCharge(KeyVisitor& v, Charge& charge) {
 struct ShapeKeys {
   void operator()(KeyVisitor& v, SphereShape& sphere) const {
     visit(v, {"radius", "m", above(0), "of the sphere"}, sphere.radius);
+    visit(v, {"segments", "", between(8, 1024), "around the equator: 128 leave no corners that are seen"},
+          sphere.segments);
   }
   void operator()(KeyVisitor& v, BoxShape& box) const {
     visit(v, {"size", "m", above(0), "along x, y, z"}, box.size);

@@ -16,6 +16,7 @@ namespace brisance {
 
 struct SphereShape {
   double radius = 0.5;  ///< [m]
+  int segments = 32;    ///< around the equator
 };
 struct BoxShape {
   Vec3d size{1, 1, 1};  ///< [m]
