@@ -196,6 +196,9 @@ void collectInputs(Scene& scene) {
 }
 
 void checkTogether(const Scene& scene, const Places& places) {
+  const SimulationSettings& s = scene.simulation;
+  if (std::holds_alternative<Pressure>(s.rigid.push) && s.bodiesInGas == BodiesInGas::pass)
+    places.refuse("rigid.push", "pressure pushes only what blocks the gas: set gas.bodies = \"block\"");
   checkFaces(scene, places);
   checkTemperatures(scene, places);
   const std::vector<Charge>& charges = scene.simulation.particles.charges;
