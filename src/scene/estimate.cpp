@@ -22,6 +22,7 @@ constexpr double sweepMemory = 6 * field;       // where a donor-cell step puts 
 constexpr double separateMemory = 12 * field;   // padded and new velocity and scalar, and a velocity of the whirls'
 constexpr double multigridMemory = 13 * field;  // six vectors and seven entries of a row, an eighth more in all levels
 constexpr double gradientMemory = 8 * field;    // four vectors in double precision
+constexpr double movingMemory = 20 * field;     // where moving bodies block gas: what faces and cells are, twice
 constexpr double depositMemory = field + 1;     // among solids: what is inside, and the share of a kernel in gas
 constexpr double writingMemory = 12 * field;    // the frame's velocity: bricks, leaves, packed, joined
 constexpr double volumeCellMemory = 32;         // density and colour, and their copy while blurring
@@ -47,6 +48,7 @@ double gasCellMemory(const SimulationSettings& s) {
   bytes += sweepsSuffice(s.fluid) ? sweepMemory : separateMemory;
   if (std::holds_alternative<MultigridSolver>(s.fluid.pressure)) bytes += multigridMemory;
   bytes += std::holds_alternative<ConjugateGradient>(s.fluid.pressure) ? gradientMemory : pressureMemory;
+  if (s.bodiesInGas == BodiesInGas::block) bytes += movingMemory;
   const auto blocks = [](const BodySettings& body) { return body.blocksGas; };
   if (std::any_of(s.bodies.begin(), s.bodies.end(), blocks)) bytes += depositMemory;
   return bytes;

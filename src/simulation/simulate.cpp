@@ -44,6 +44,20 @@ void saveCheckpoint(RunDirectory& run, const World& world, std::size_t keep) {
   if (!names.empty()) run.remove(names);
 }
 
+/// One frame; where it fails, with the name of what is left to go back to.
+void advanceFrom(const RunDirectory& run, World& world) {
+  try {
+    world.advance();
+  } catch (const Error& error) {
+    if (error.code != ExitCode::unstable) throw;
+    const std::vector<std::string> names = checkpoints(run);
+    throw Error(error.code,
+                fmt::format("{}; {}", error.what(),
+                            names.empty() ? "there is no checkpoint yet"
+                                          : "last good checkpoint: " + (run.path() / names.back()).string()));
+  }
+}
+
 void summarise(const World& world, SimulationSummary& summary) {
   const RunTotals& totals = world.totals();
   summary.volume = totals.volume;
@@ -84,7 +98,7 @@ SimulationSummary simulate(const SimulationSettings& settings, RunDirectory& run
       summary.interrupted = true;
       break;
     }
-    world.advance();
+    advanceFrom(run, world);
     writeFrame(run, world, summary);
     if (world.frameIndex() % settings.checkpointEvery == 0 && world.frameIndex() < last)
       saveCheckpoint(run, world, whileRunning);
