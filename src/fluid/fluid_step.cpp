@@ -2,21 +2,13 @@
 
 #include <cmath>
 
-#include "base/parallel.h"
+#include "fluid/diffusion.h"
 #include "fluid/forces.h"
 #include "fluid/temperature.h"
 
 namespace brisance {
 
 namespace {
-double largestMagnitude(const Grid3<float>& grid) {
-  return parallelMax(grid.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
-    float largest = 0;
-    for (std::int64_t n = first; n < last; ++n) largest = std::max(largest, std::abs(grid.values[n]));
-    return static_cast<double>(largest);
-  });
-}
-
 void addBurnt(FluidState& gas, double sootPerMass, double flameLifetime, double dt) {
   const float kept = static_cast<float>(portableExp(-dt / flameLifetime));
   for (std::size_t n = 0; n < gas.soot.values.size(); ++n) {
@@ -29,10 +21,11 @@ void addBurnt(FluidState& gas, double sootPerMass, double flameLifetime, double 
 /// Heat carried, released, cooled: the balance of the whole step.
 Balance stepTemperature(FluidState& gas, const FluidSettings& s, double dt, FluidScratch& scratch) {
   const double before = heatContent(gas, s);
-  Balance heat = advectScalar(gas.temperature, gas, s, static_cast<float>(s.ambientTemperature), dt, scratch.advection);
+  const float ambient = static_cast<float>(s.ambientTemperature);
+  Balance heat = advectScalar(gas.temperature, gas, s, ambient, dt, scratch.advection);
   heat.in *= s.heatCapacity;
   heat.out *= s.heatCapacity;
-  heat += heatAndCool(gas, s, dt, scratch.temperature);
+  heat += heatAndCool(gas, s, dt);
   heat.gained = heatContent(gas, s) - before;
   return heat;
 }
@@ -43,23 +36,19 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
   FluidReport report;
   report.courant = courantNumber(gas, dt);
   report.heat = stepTemperature(gas, settings, dt, scratch);
-  advectScalar(gas.soot, gas, settings, 0, dt, scratch.advection);
-  advectScalar(gas.flame, gas, settings, 0, dt, scratch.advection);
+  carryScalar(gas.soot, gas, settings, 0, dt, scratch.advection);
+  carryScalar(gas.flame, gas, settings, 0, dt, scratch.advection);
   addBurnt(gas, sootPerMass, settings.flameLifetime, dt);
   advectVelocity(gas, settings, dt, scratch.advection);
+  if (settings.viscosity > 0) diffuseVelocity(gas, settings, dt);
   addForces(gas, settings, dt);
   confineVorticity(gas, settings, dt);
+  stir(gas, settings, dt);
   report.pressure = project(gas, settings, dt, scratch.pressure);
   report.divergence = divergenceError(gas);
   report.volume.in = dt * createdVolume(gas, settings);
   report.volume.out = dt * outwardVolume(gas, settings);
   return report;
-}
-
-double courantNumber(const FluidState& gas, double dt) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) sum += largestMagnitude(gas.velocity.component(axis));
-  return dt * sum / gas.pressure.cellSize;
 }
 
 double longestStep(const FluidState& gas, const FluidSettings& s, double largestSource) {
@@ -69,8 +58,6 @@ double longestStep(const FluidState& gas, const FluidSettings& s, double largest
   const double hottest = largestMagnitude(gas.temperature) - s.ambientTemperature;
   const double acceleration = length(s.force) + std::abs(s.buoyancy) * std::max(0.0, hottest);
   inverse = std::max(inverse, std::sqrt(acceleration / (h * s.courant)));
-  const double diffusion = std::max(s.viscosity, s.conductivity);
-  inverse = std::max(inverse, 6 * diffusion / (h * h));
   return inverse > 0 ? 1 / inverse : HUGE_VAL;
 }
 

@@ -12,4 +12,7 @@ void addForces(FluidState& gas, const FluidSettings& settings, double dt);
 /// (Fedkiw, Stam & Jensen 2001, eq. 11).
 void confineVorticity(FluidState& gas, const FluidSettings& settings, double dt);
 
+/// Brings the gas inside each stirring cylinder towards the speed of a turning solid.
+void stir(FluidState& gas, const FluidSettings& settings, double dt);
+
 }  // namespace brisance
