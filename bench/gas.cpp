@@ -5,7 +5,10 @@
 #include <chrono>
 #include <cstring>
 
+#include "base/lane_sum.h"
+#include "base/memory.h"
 #include "base/parallel.h"
+#include "base/vector_path.h"
 #include "fluid/fluid_step.h"
 #include "fluid/solid_fractions.h"
 #include "gas_inputs.h"
@@ -39,17 +42,52 @@ void count(benchmark::State& state, const FluidState& gas, int iterations) {
   state.counters["iterations"] = iterations;
 }
 
-void stepGas(benchmark::State& state, int cells) {
+/// A hot ball that rises while it expands.
+FluidState burningIn(const FluidSettings& settings) {
+  FluidState gas = sourceIn(settings, stampSolids(settings, {}));
+  for (std::int64_t n = 0; n < gas.divergence.count(); ++n) {
+    gas.burnRate.values[n] = gas.divergence.values[n];
+    gas.heatRate.values[n] = 200 * gas.divergence.values[n];
+  }
+  return gas;
+}
+
+void stepGas(benchmark::State& state, int cells, double whirls) {
   FluidSettings settings = boxOf(cells);
   settings.buoyancy = 0.01;
-  settings.vorticityConfinement = 0.5;
-  FluidState gas = sourceIn(settings, stampSolids(settings, {}));
+  settings.vorticityConfinement = whirls;
+  FluidState gas = burningIn(settings);
   FluidScratch scratch;
   FluidReport report;
   constexpr double sootPerMass = 1, largestSource = 5;  // [1], [1/s]
-  for (auto _ : state)
+  const auto step = [&] {
     report = stepFluid(gas, settings, sootPerMass, longestStep(gas, settings, largestSource), scratch);
+  };
+  step();  // fresh memory comes once in a film
+  for (auto _ : state) step();
   count(state, gas, report.pressure.iterations);
+}
+
+/// The bytes of a step once: its seven fields copied, its three sources read.
+void moveStep(benchmark::State& state, int cells) {
+  const std::int64_t count = std::int64_t{1} * cells * cells * cells, grain = count / 64;
+  std::vector<std::vector<float>> fields(7, std::vector<float>(count, 1)), moved = fields;
+  const std::vector<std::vector<float>> sources(3, std::vector<float>(count, 1));
+  double sum = 0;
+  for (auto _ : state) {
+    for (std::size_t n = 0; n < fields.size(); ++n)
+      parallelFor(0, count, grain, [&](std::int64_t first, std::int64_t last) {
+        std::memcpy(&moved[n][first], &fields[n][first], static_cast<std::size_t>(last - first) * sizeof(float));
+      });
+    for (const auto& source : sources)
+      sum += parallelSum(count, grain, [&](std::int64_t first, std::int64_t last) {
+        double part = 0;
+        runWide([&] { part = laneMax(last - first, [&](std::int64_t i) { return source[first + i]; }); });
+        return part;
+      });
+  }
+  benchmark::DoNotOptimize(sum);
+  state.counters["threads"] = threadCount();
 }
 
 /// What the memory gives at most: a copy of 512 MB by all threads.
@@ -68,12 +106,17 @@ void copyArray(benchmark::State& state) {
 
 template <class... Arguments>
 void add(const std::string& name, Arguments... arguments) {
-  benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
 const bool registered = [] {
-  add("Step/DonorCell/64/Brisance", stepGas, 64);
-  add("Step/DonorCell/128/Brisance", stepGas, 128);
+  keepFreedMemory();
+  for (const int cells : {64, 128, 256}) {
+    const std::string size = fmt::format("/{}/", cells);
+    add("Step/DonorCell" + size + "Brisance", stepGas, cells, 0.0);
+    add("Step/DonorCellWhirls" + size + "Brisance", stepGas, cells, 0.5);
+    add("Step/Bytes" + size + "Memory", moveStep, cells);
+  }
   add("Copy/Array/512M/Memory", copyArray);
   return true;
 }();

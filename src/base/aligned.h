@@ -10,7 +10,7 @@
 namespace brisance {
 
 /// Memory that starts at a cache line; large pieces start at a huge page and ask the kernel for such pages, since a
-/// sweep along z touches another page with every sample.
+/// sweep along z touches another page with every sample, and a walk over a graph with nearly every node.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
@@ -20,7 +20,7 @@ struct CacheLineAllocator {
 
   T* allocate(std::size_t count) {
     constexpr std::size_t line = 64, hugePage = std::size_t{2} << 20;
-    const std::size_t bytes = count * sizeof(T), unit = bytes < 4 * hugePage ? line : hugePage;
+    const std::size_t bytes = count * sizeof(T), unit = bytes < hugePage ? line : hugePage;
     const std::size_t rounded = (bytes + unit - 1) / unit * unit;
     void* memory = std::aligned_alloc(unit, rounded);
     if (!memory) throw std::bad_alloc();

@@ -1,5 +1,6 @@
 #include "fluid/advection.h"
 
+#include "base/lane_sum.h"
 #include "base/parallel.h"
 #include "base/vector_path.h"
 #include "fluid/donor_cell.h"
@@ -8,8 +9,6 @@
 namespace brisance {
 
 namespace {
-constexpr int lanes = 8;  // partial sums: a fixed number, so that their bits do not depend on the vector width
-
 /// Rows to write to, of a grid or inside a padded one.
 struct RowsOut {
   float* first;
@@ -104,35 +103,20 @@ void correctStep(const Flow& flow, const PaddedGrid& old, const PaddedGrid& pred
   });
 }
 
-/// Stages of Runge and Kutta for differences of some weight w at Courant number C. The spectrum of their operator lies
-/// in ellipses, C (-w + w cos t + i sin t). One stage, forward Euler, is stable for all of those with C <= w; two up to
-/// C = 1.25 where w >= 0.2; three up to C = 1.25 for any w.
-int stagesOf(const FluidState& gas, const DonorCell& scheme, double dt) {
-  constexpr double enoughForTwo = 0.2;
-  if (scheme.upwindWeight >= 1 || courantNumber(gas, dt) <= scheme.upwindWeight) return 1;
-  return scheme.upwindWeight >= enoughForTwo ? 2 : 3;
-}
-
 /// What created gas brings: sum of (s - ambient) div u, times h^2 for the caller's h.
 double createdContent(const PaddedGrid& scalar, const ScalarFlow& flow, float ambient) {
   const Vec3i size = flow.size();
   return parallelSum(size.z, 1, [&](std::int64_t k, std::int64_t) {
-    double sums[lanes] = {};
+    double sum = 0;
     runWide([&] {
       for (int j = 0; j < size.y; ++j) {
         const auto carrier = flow.row(j, static_cast<int>(k));
         const float* s = scalar.row(j, static_cast<int>(k));
-        const auto content = [&](std::int64_t i) {
-          return carrier.closed(i) ? 0.0 : double(s[i] - ambient) * carrier.divergence(i);
-        };
-        std::int64_t i = 0;
-        for (; i + lanes <= size.x; i += lanes)
-          for (int l = 0; l < lanes; ++l) sums[l] += content(i + l);
-        for (; i < size.x; ++i) sums[i % lanes] += content(i);
+        sum += laneSum(size.x, [&](std::int64_t i) {
+          return carrier.closed(i) ? 0.0f : (s[i] - ambient) * carrier.divergence(i);
+        });
       }
     });
-    double sum = 0;
-    for (const double part : sums) sum += part;
     return sum;
   });
 }
@@ -188,7 +172,7 @@ struct ScalarTransport {
   void by(const DonorCell& scheme) const {
     const float weight = static_cast<float>(scheme.upwindWeight);
     const PaddedGrid* last = &scratch.scalar;
-    for (int left = stagesOf(gas, scheme, dt); left > 1; --left) {
+    for (int left = donorStages(scheme, courantNumber(gas, dt)); left > 1; --left) {
       PaddedGrid& stage = scratch.stage[left % 2].component[0];
       part(1.0f / static_cast<float>(left), *last, weight, stage);
       last = &stage;
@@ -257,7 +241,7 @@ struct VelocityTransport {
   void by(const DonorCell& scheme) const {
     const float weight = static_cast<float>(scheme.upwindWeight);
     const PaddedVelocity* last = &scratch.velocity;
-    const int stages = stagesOf(gas, scheme, dt);
+    const int stages = donorStages(scheme, courantNumber(gas, dt));
     if (stages > 1) padPressure();
     for (int left = stages; left > 1; --left) {
       PaddedVelocity& stage = scratch.stage[left % 2];
@@ -306,23 +290,20 @@ Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSet
   return balance;
 }
 
+int donorStages(const DonorCell& scheme, double courant) {
+  constexpr double enoughForTwo = 0.2;
+  if (scheme.upwindWeight >= 1 || courant <= scheme.upwindWeight) return 1;
+  return scheme.upwindWeight >= enoughForTwo ? 2 : 3;
+}
+
 double largestMagnitude(const Grid3<float>& grid) {
   return parallelMax(grid.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
     float largest = 0;
-    runWide([&] {
-      float most[16] = {};
-      std::int64_t n = first;
-      for (; n + 16 <= last; n += 16)
-        for (int l = 0; l < 16; ++l) {
-          const float value = std::abs(grid.values[n + l]);
-          most[l] = value > most[l] ? value : most[l];
-        }
-      for (; n < last; ++n) most[0] = std::max(most[0], std::abs(grid.values[n]));
-      for (const float value : most) largest = std::max(largest, value);
-    });
+    runWide([&] { largest = laneMax(last - first, [&](std::int64_t n) { return grid.values[first + n]; }); });
     return static_cast<double>(largest);
   });
 }
+
 double courantNumber(const FluidState& gas, double dt) {
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) sum += largestMagnitude(gas.velocity.component(axis));

@@ -23,17 +23,19 @@ inline Row rowOf(const PaddedGrid& grid, int j, int k) {
   return {grid.row(j, k), {1, grid.values.stride(1), grid.values.stride(2)}};
 }
 
-/// Speeds at the lower and upper side of a control volume along one axis.
-struct SideSpeeds {
+/// At the two sides of a control volume along one axis.
+struct Sides {
   float lower, upper;
 };
-struct Transported {
-  float flux = 0, divergence = 0;
-};
-inline void addSides(const Row& s, std::int64_t i, int axis, SideSpeeds speed, float upwindWeight, Transported& sum) {
+/// What the fluxes through both sides take from a sample, less the sample times what they carry in all: h (u ds/dx) of
+/// the same scheme. `difference`: of the sample and its neighbours, upper less lower.
+inline float donorDifference(Sides speed, Sides difference, float upwindWeight) {
+  return 0.5f * ((speed.upper - upwindWeight * std::abs(speed.upper)) * difference.upper +
+                 (speed.lower + upwindWeight * std::abs(speed.lower)) * difference.lower);
+}
+inline float donorRate(const Row& s, std::int64_t i, int axis, Sides speed, float upwindWeight) {
   const float lower = s.at[i - s.step[axis]], here = s.at[i], upper = s.at[i + s.step[axis]];
-  sum.flux += donorFlux(speed.upper, here, upper, upwindWeight) - donorFlux(speed.lower, lower, here, upwindWeight);
-  sum.divergence += speed.upper - speed.lower;
+  return donorDifference(speed, {here - lower, upper - here}, upwindWeight);
 }
 
 /// How gas carries the velocity component along `axis`: its control volume reaches from centre to centre of two cells,
@@ -49,16 +51,13 @@ class SpeedFlow {
     const float* open;
     bool closed(std::int64_t i) const { return !(open[i] > 0); }
     float rate(const Row& s, std::int64_t i, float upwindWeight) const {
-      Transported sum;
-      addSides(s, i, 0, sides<0>(i), upwindWeight, sum);
-      addSides(s, i, 1, sides<1>(i), upwindWeight, sum);
-      addSides(s, i, 2, sides<2>(i), upwindWeight, sum);
-      return sum.flux - s.at[i] * sum.divergence;
+      return (donorRate(s, i, 0, sides<0>(i), upwindWeight) + donorRate(s, i, 1, sides<1>(i), upwindWeight)) +
+             donorRate(s, i, 2, sides<2>(i), upwindWeight);
     }
 
    private:
     template <int b>
-    SideSpeeds sides(std::int64_t i) const {
+    Sides sides(std::int64_t i) const {
       const float* at = w[b].at + i;
       const std::int64_t back = -w[b].step[axis], up = w[b].step[b];
       if constexpr (b == axis) return {0.5f * (at[back] + at[0]), 0.5f * (at[0] + at[up])};
@@ -88,11 +87,9 @@ class ScalarFlow {
     bool closed(std::int64_t i) const { return inside[i] != 0; }
     float divergence(std::int64_t i) const { return (u[i + 1] - u[i]) + (vUpper[i] - v[i]) + (wUpper[i] - w[i]); }
     float rate(const Row& s, std::int64_t i, float upwindWeight) const {
-      Transported sum;
-      addSides(s, i, 0, {u[i], u[i + 1]}, upwindWeight, sum);
-      addSides(s, i, 1, {v[i], vUpper[i]}, upwindWeight, sum);
-      addSides(s, i, 2, {w[i], wUpper[i]}, upwindWeight, sum);
-      return sum.flux - s.at[i] * sum.divergence;
+      return (donorRate(s, i, 0, {u[i], u[i + 1]}, upwindWeight) +
+              donorRate(s, i, 1, {v[i], vUpper[i]}, upwindWeight)) +
+             donorRate(s, i, 2, {w[i], wUpper[i]}, upwindWeight);
     }
   };
   FlowRow row(int j, int k) const {

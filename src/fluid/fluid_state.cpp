@@ -5,8 +5,8 @@
 namespace brisance {
 
 namespace {
-/// The wind, with small random velocities so that the explosion is not symmetric (thesis 2.4.3). Closed faces stay at
-/// rest.
+/// The wind, with small random velocities so that the explosion is not symmetric (thesis 2.4.3). What is closed of a
+/// face stays at rest.
 void stir(FluidState& gas, const Vec3d& wind, double deviation, std::uint64_t seed) {
   const Random random(seed, Stream::startVelocity);
   std::uint64_t index = 0;
@@ -14,7 +14,7 @@ void stir(FluidState& gas, const Vec3d& wind, double deviation, std::uint64_t se
     auto& values = gas.velocity.component(axis).values;
     const auto& open = gas.solid.openShare.component(axis).values;
     for (std::size_t n = 0; n < values.size(); ++n)
-      values[n] = open[n] > 0 ? static_cast<float>(wind[axis] + deviation * random.normal(index + n)) : 0.0f;
+      values[n] = open[n] * static_cast<float>(wind[axis] + deviation * random.normal(index + n));
     index += values.size();
   }
 }

@@ -1,21 +1,43 @@
 #include "fluid/fluid_step.h"
 
+#include <bit>
 #include <cmath>
 
+#include "base/lane_sum.h"
+#include "base/parallel.h"
+#include "base/vector_path.h"
 #include "fluid/diffusion.h"
 #include "fluid/forces.h"
+#include "fluid/moving_solids.h"
 #include "fluid/temperature.h"
+#include "fluid/vorticity.h"
 
 namespace brisance {
 
 namespace {
-void addBurnt(FluidState& gas, double sootPerMass, double flameLifetime, double dt) {
-  const float kept = static_cast<float>(portableExp(-dt / flameLifetime));
-  for (std::size_t n = 0; n < gas.soot.values.size(); ++n) {
-    const double burnt = dt * gas.burnRate.values[n];
-    gas.soot.values[n] += static_cast<float>(sootPerMass * burnt);
-    gas.flame.values[n] = gas.flame.values[n] * kept + static_cast<float>(burnt);
-  }
+/// Whether a value is infinite or not a number.
+bool anyNotFinite(const Grid3<float>& grid) {
+  constexpr std::uint32_t exponent = 0x7f800000;
+  return parallelMax(grid.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
+           std::uint32_t found = 0;
+           runWide([&] {
+             for (std::int64_t n = first; n < last; ++n)
+               found |= (std::bit_cast<std::uint32_t>(grid.values[n]) & exponent) == exponent ? 1u : 0u;
+           });
+           return static_cast<double>(found);
+         }) > 0;
+}
+
+void addBurnt(FluidState& gas, const Burning& burning, double dt) {
+  const float kept = static_cast<float>(portableExp(-dt / burning.flameLifetime));
+  const float soot = static_cast<float>(burning.sootPerMass * dt), burnt = static_cast<float>(dt);
+  parallelFor(0, gas.soot.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t n = first; n < last; ++n) {
+      const float rate = gas.burnRate.values[n];
+      gas.soot.values[n] += soot * rate;
+      gas.flame.values[n] = gas.flame.values[n] * kept + burnt * rate;
+    }
+  });
 }
 
 /// Heat carried, released, cooled: the balance of the whole step.
@@ -29,24 +51,44 @@ Balance stepTemperature(FluidState& gas, const FluidSettings& s, double dt, Flui
   heat.gained = heatContent(gas, s) - before;
   return heat;
 }
+
+/// Burn and advect, one field after the other. Returns the balance of heat.
+Balance moveScalars(FluidState& gas, const FluidSettings& settings, const Burning& burning, double dt,
+                    FluidScratch& scratch) {
+  const Balance heat = stepTemperature(gas, settings, dt, scratch);
+  carryScalar(gas.soot, gas, settings, 0, dt, scratch.advection);
+  carryScalar(gas.flame, gas, settings, 0, dt, scratch.advection);
+  addBurnt(gas, burning, dt);
+  return heat;
+}
+
+void moveVelocity(FluidState& gas, const FluidSettings& settings, double dt, FluidScratch& scratch) {
+  advectVelocity(gas, settings, dt, scratch.advection);
+  if (settings.viscosity > 0) diffuseVelocity(gas, settings, dt);
+  addForces(gas, settings, dt);
+}
 }  // namespace
 
 FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double sootPerMass, double dt,
                       FluidScratch& scratch) {
   FluidReport report;
   report.courant = courantNumber(gas, dt);
-  report.heat = stepTemperature(gas, settings, dt, scratch);
-  carryScalar(gas.soot, gas, settings, 0, dt, scratch.advection);
-  carryScalar(gas.flame, gas, settings, 0, dt, scratch.advection);
-  addBurnt(gas, sootPerMass, settings.flameLifetime, dt);
-  advectVelocity(gas, settings, dt, scratch.advection);
-  if (settings.viscosity > 0) diffuseVelocity(gas, settings, dt);
-  addForces(gas, settings, dt);
-  confineVorticity(gas, settings, dt);
+  const Burning burning{sootPerMass, settings.flameLifetime};
+  const bool sweeps = sweepsSuffice(settings, report.courant);
+  report.heat = sweeps ? sweepScalars(gas, settings, burning, dt, scratch.sweep)
+                       : moveScalars(gas, settings, burning, dt, scratch);
+  takeGasVelocity(gas);
+  if (sweeps)
+    sweepVelocity(gas, settings, dt, scratch.sweep);
+  else
+    moveVelocity(gas, settings, dt, scratch);
+  confineVorticity(gas, settings, dt, scratch.sweep.velocity);
   stir(gas, settings, dt);
+  takeMeanVelocity(gas);
   report.pressure = project(gas, settings, dt, scratch.pressure);
-  report.divergence = divergenceError(gas);
-  report.volume.in = dt * createdVolume(gas, settings);
+  const Continuity continuity = continuityOf(gas);
+  report.divergence = continuity.error;
+  report.volume.in = dt * continuity.created;
   report.volume.out = dt * outwardVolume(gas, settings);
   return report;
 }
@@ -65,11 +107,13 @@ std::string findNotFinite(const FluidState& gas) {
   const std::pair<const char*, const Grid3<float>*> grids[] = {
       {"velocity u", &gas.velocity.u}, {"velocity v", &gas.velocity.v},   {"velocity w", &gas.velocity.w},
       {"pressure", &gas.pressure},     {"temperature", &gas.temperature}, {"soot", &gas.soot}};
-  for (const auto& [name, grid] : grids)
+  for (const auto& [name, grid] : grids) {
+    if (!anyNotFinite(*grid)) continue;
     for (std::int64_t n = 0; n < grid->count(); ++n)
       if (!std::isfinite(grid->values[n]))
         return fmt::format("{} at cell ({}, {}, {})", name, n % grid->size.x, n / grid->size.x % grid->size.y,
                            n / grid->stride(2));
+  }
   return {};
 }
 

@@ -4,12 +4,14 @@
 
 #include "base/report.h"
 #include "fluid/advection.h"
+#include "fluid/donor_sweep.h"
 #include "fluid/pressure.h"
 
 namespace brisance {
 
 struct FluidScratch {
   AdvectionScratch advection;
+  SweepScratch sweep;
   PressureScratch pressure;
 };
 

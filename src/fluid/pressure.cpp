@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lane_sum.h"
 #include "base/parallel.h"
+#include "base/vector_path.h"
 #include "fluid/multigrid.h"
 #include "fluid/projection.h"
 
@@ -128,37 +130,40 @@ PressureReport project(FluidState& gas, const FluidSettings& settings, double dt
                     settings.pressure);
 }
 
-double divergenceError(const FluidState& gas) {
+Continuity continuityOf(const FluidState& gas) {
   const Vec3i n = gas.pressure.size;
-  const double h = gas.pressure.cellSize;
-  const auto norm = [&](const auto& value) {
-    return std::sqrt(parallelSum(n.z, 1, [&](std::int64_t k, std::int64_t) {
-      double sum = 0;
-      for (int j = 0; j < n.y; ++j)
-        for (int i = 0; i < n.x; ++i)
-          if (!gas.solid.inside(i, j, static_cast<int>(k))) {
-            const double v = value(i, j, static_cast<int>(k));
-            sum += v * v;
-          }
-      return sum;
-    }));
+  const double perLength = 1 / gas.pressure.cellSize;
+  struct Sums {
+    double error = 0, source = 0, created = 0;
   };
-  const double error = norm(
-      [&](int i, int j, int k) { return velocityDivergence(gas.velocity, i, j, k) / h - gas.divergence(i, j, k); });
-  const double source = norm([&](int i, int j, int k) { return gas.divergence(i, j, k); });
-  return source > 0 ? error / source : error;
-}
-
-double createdVolume(const FluidState& gas, const FluidSettings& settings) {
-  const auto& phi = gas.divergence.values;
-  const auto& solid = gas.solid.inside.values;
-  const double sum =
-      parallelSum(static_cast<std::int64_t>(phi.size()), 4096, [&](std::int64_t first, std::int64_t last) {
-        double part = 0;
-        for (std::int64_t n = first; n < last; ++n) part += solid[n] ? 0 : phi[n];
-        return part;
+  std::vector<Sums> planes(n.z);
+  const auto addRow = [&](int j, int k, Sums& sums) {
+    const MacVelocity& m = gas.velocity;
+    const float *u = &m.u(0, j, k), *v = &m.v(0, j, k), *vUpper = &m.v(0, j + 1, k);
+    const float *w = &m.w(0, j, k), *wUpper = &m.w(0, j, k + 1), *phi = &gas.divergence(0, j, k);
+    const std::uint8_t* inside = &gas.solid.inside(0, j, k);
+    sums.error += laneSum(n.x, [&](std::int64_t i) {
+      const double flow = (double(u[i + 1]) - u[i]) + (double(vUpper[i]) - v[i]) + (double(wUpper[i]) - w[i]);
+      const double wrong = flow * perLength - phi[i];
+      return inside[i] ? 0 : wrong * wrong;
+    });
+    sums.source += laneSum(n.x, [&](std::int64_t i) { return inside[i] ? 0 : double(phi[i]) * phi[i]; });
+    sums.created += laneSum(n.x, [&](std::int64_t i) { return inside[i] ? 0 : phi[i]; });
+  };
+  parallelFor(0, n.z, 2, [&](std::int64_t first, std::int64_t last) {
+    for (int k = static_cast<int>(first); k < last; ++k)
+      runWide([&] {
+        for (int j = 0; j < n.y; ++j) addRow(j, k, planes[k]);
       });
-  return sum * settings.cellSize * settings.cellSize * settings.cellSize;
+  });
+  Sums all;
+  for (const Sums& plane : planes) {
+    all.error += plane.error;
+    all.source += plane.source;
+    all.created += plane.created;
+  }
+  const double h = gas.pressure.cellSize;
+  return {std::sqrt(all.error) / (all.source > 0 ? std::sqrt(all.source) : 1), all.created * h * h * h};
 }
 
 double outwardVolume(const FluidState& gas, const FluidSettings& settings) {

@@ -17,16 +17,20 @@ struct PressureScratch {
   CellField field, work;
 };
 
-/// Makes div u = phi over dt [s] and keeps the pressure (as the next start of conjugate_gradient). A sealed pocket with a
-/// net source cannot obey: the mean over its cells is taken from the source if the settings say so, and reported, else
-/// InputError.
+/// Makes div u = phi over dt [s] and keeps the pressure (as the next start of conjugate_gradient). A sealed pocket with
+/// a net source cannot obey: the mean over its cells is taken from the source if the settings say so, and reported,
+/// else InputError.
 PressureReport project(FluidState& gas, const FluidSettings& settings, double dt, PressureScratch& scratch);
 
-/// |div u - phi| over the cells of gas relative to |phi| (L2; absolute where phi is zero everywhere), from the velocity
-/// itself.
-double divergenceError(const FluidState& gas);
-/// [m3/s] of gas created by the source, and leaving through the box's faces.
-double createdVolume(const FluidState& gas, const FluidSettings& settings);
+/// How well a velocity obeys its source, from itself, in double precision.
+struct Continuity {
+  double error = 0;  ///< |div u - phi| over the cells of gas relative to |phi| (L2; absolute where phi is 0 everywhere)
+  double created = 0;  ///< [m3/s] of gas, by the source
+};
+Continuity continuityOf(const FluidState& gas);
+inline double divergenceError(const FluidState& gas) { return continuityOf(gas).error; }
+inline double createdVolume(const FluidState& gas) { return continuityOf(gas).created; }
+/// [m3/s] leaving through the box's faces.
 double outwardVolume(const FluidState& gas, const FluidSettings& settings);
 
 }  // namespace brisance

@@ -158,12 +158,13 @@ void subtractGradient(FluidState& gas, const Faces& faces, double dt, const Cell
   });
 }
 
-PocketSources detail::judgePockets(const std::vector<PocketSum>& pockets, const FluidState& gas,
+PocketSources detail::judgePockets(const std::vector<PocketSum>& regions, const FluidState& gas,
                                    const FluidSettings& settings, bool refuse) {
   constexpr double rounding = 1e-5;  // of float velocities
   PocketSources sources;
-  for (std::size_t n = 1; n < pockets.size(); ++n) {
-    const PocketSum& pocket = pockets[n];
+  for (std::size_t n = 0; n < regions.size(); ++n) {
+    if (!gas.solid.sealed[n]) continue;
+    const PocketSum& pocket = regions[n];
     ++sources.count;
     if (std::abs(pocket.sum) <= rounding * pocket.absolute) continue;
     const double source = pocket.sum * gas.pressure.cellSize;

@@ -36,7 +36,7 @@ namespace detail {
 struct PocketSum {
   double sum = 0, absolute = 0, cells = 0;
 };
-PocketSources judgePockets(const std::vector<PocketSum>& pockets, const FluidState& gas, const FluidSettings& settings,
+PocketSources judgePockets(const std::vector<PocketSum>& regions, const FluidState& gas, const FluidSettings& settings,
                            bool refuse);
 }  // namespace detail
 
@@ -44,21 +44,22 @@ PocketSources judgePockets(const std::vector<PocketSum>& pockets, const FluidSta
 /// b, in all its cells. InputError where that is more than rounding, `refuse` and the settings do not allow it.
 template <class At>
 PocketSources removePocketSources(const FluidState& gas, const FluidSettings& settings, bool refuse, const At& at) {
-  if (gas.solid.pocketCount == 0) return {};
-  std::vector<detail::PocketSum> pockets(gas.solid.pocketCount + 1);
+  if (gas.solid.pocketCount() == 0) return {};
+  std::vector<detail::PocketSum> regions(gas.solid.sealed.size());
   const Vec3i n = gas.pressure.size;
   const auto forPockets = [&](const auto& visit) {
     for (int k = 0; k < n.z; ++k)
       for (int j = 0; j < n.y; ++j)
         for (int i = 0; i < n.x; ++i)
-          if (const int pocket = gas.solid.pocket(i, j, k); pocket > 0) visit(pockets[pocket], at(i, j, k));
+          if (const int region = gas.solid.region(i, j, k); region >= 0 && gas.solid.sealed[region])
+            visit(regions[region], at(i, j, k));
   };
   forPockets([](detail::PocketSum& pocket, double b) {
     pocket.sum += b;
     pocket.absolute += std::abs(b);
     pocket.cells += 1;
   });
-  const PocketSources sources = detail::judgePockets(pockets, gas, settings, refuse);
+  const PocketSources sources = detail::judgePockets(regions, gas, settings, refuse);
   using Value = std::remove_reference_t<decltype(at(0, 0, 0))>;
   forPockets([](const detail::PocketSum& pocket, Value& b) { b = static_cast<Value>(b - pocket.sum / pocket.cells); });
   return sources;

@@ -3,23 +3,11 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/vector_path.h"
+#include "fluid/cooling.h"
 #include "fluid/diffusion.h"
 
 namespace brisance {
-
-namespace {
-/// Sum over cells that are not solid of a function of the cell's number.
-template <class Term>
-double cellSum(const FluidState& gas, const Term& term) {
-  const auto& solid = gas.solid.inside.values;
-  return parallelSum(static_cast<std::int64_t>(solid.size()), 4096, [&](std::int64_t first, std::int64_t last) {
-    double sum = 0;
-    for (std::int64_t n = first; n < last; ++n)
-      if (!solid[n]) sum += term(n);
-    return sum;
-  });
-}
-}  // namespace
 
 double cooled(double theta, double range, double rate, double dt) {
   if (theta <= 0) return theta;
@@ -31,28 +19,40 @@ double cooled(double theta, double range, double rate, double dt) {
 
 Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt) {
   if (settings.conductivity > 0) conduct(gas, settings, dt);
-  const double ambient = settings.ambientTemperature, range = settings.maximumTemperature - ambient;
-  auto& T = gas.temperature.values;
-  const double heated = cellSum(gas, [&](std::int64_t n) {
-    const float before = T[n];
-    T[n] = static_cast<float>(before + dt * gas.heatRate.values[n]);
-    return dt * gas.heatRate.values[n];
-  });
-  const double radiated = cellSum(gas, [&](std::int64_t n) {
-    const double before = T[n];
-    T[n] = static_cast<float>(ambient + cooled(before - ambient, range, settings.coolingRate, dt));
-    return before - T[n];
+  const HeatRow heatRow(settings, dt);
+  const Vec3i n = gas.temperature.size;
+  std::vector<HeatRow::Sums> planes(n.z);
+  parallelFor(0, n.z, 2, [&](std::int64_t first, std::int64_t last) {
+    std::vector<float> room(n.x);
+    for (int k = static_cast<int>(first); k < last; ++k)
+      for (int j = 0; j < n.y; ++j)
+        runWide([&] {
+          const auto sums =
+              heatRow(&gas.temperature(0, j, k), &gas.heatRate(0, j, k), &gas.solid.inside(0, j, k), n.x, room.data());
+          planes[k].heated += sums.heated;
+          planes[k].radiated += sums.radiated;
+        });
   });
   const double perKelvin = settings.heatCapacity * settings.cellSize * settings.cellSize * settings.cellSize;
   Balance balance;
-  balance.in = heated * perKelvin;
-  balance.lost = radiated * perKelvin;
+  for (const HeatRow::Sums& plane : planes) {
+    balance.in += plane.heated * perKelvin;
+    balance.lost += plane.radiated * perKelvin;
+  }
   return balance;
 }
 
 double heatContent(const FluidState& gas, const FluidSettings& settings) {
-  const double sum =
-      cellSum(gas, [&](std::int64_t n) { return gas.temperature.values[n] - settings.ambientTemperature; });
+  const float ambient = static_cast<float>(settings.ambientTemperature);
+  const std::uint8_t* inside = gas.solid.inside.values.data();
+  const float* T = gas.temperature.values.data();
+  const double sum = parallelSum(gas.temperature.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
+    double part = 0;
+    runWide([&] {
+      part = laneSum(last - first, [&](std::int64_t n) { return inside[first + n] ? 0 : T[first + n] - ambient; });
+    });
+    return part;
+  });
   return sum * settings.heatCapacity * settings.cellSize * settings.cellSize * settings.cellSize;
 }
 

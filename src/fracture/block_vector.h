@@ -4,15 +4,15 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
+#include "base/aligned.h"
 #include "base/parallel.h"
 
 namespace brisance {
 
 /// K numbers per node.
 template <int K, class Real>
-using BlockVector = std::vector<std::array<Real, K>>;
+using BlockVector = AlignedVector<std::array<Real, K>>;
 
 constexpr std::int64_t nodesAtOnce = 8192;  ///< rows that one thread takes at a time
 

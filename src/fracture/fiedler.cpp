@@ -13,7 +13,7 @@ namespace brisance {
 namespace {
 
 constexpr int directLimit = 100;     // nodes: a dense solution takes about a millisecond
-constexpr int coarseIterations = 4;  // what a start on the next finer level needs
+constexpr int coarseIterations = 2;  // what a start on the next finer level needs
 constexpr double coarseResidual = 1e-2;
 constexpr int mostIterations = 200;
 
@@ -67,9 +67,16 @@ Eigenspace solveDirectly(const FractureGraph& graph) {
   return space;
 }
 
-/// The start of the coarsest level that has nodes enough: its own vectors, with M-orthonormal columns.
+/// Approximate pairs, the smallest above 0, on some level.
 template <int K>
-BlockVector<K, double> coarsestVectors(const MultigridLevel& level) {
+struct EigenStart {
+  BlockVector<K, double> x;
+  std::array<double, K> values{};
+};
+
+/// Of the coarsest level that has nodes enough: its own vectors, with M-orthonormal columns.
+template <int K>
+EigenStart<K> coarsestVectors(const MultigridLevel& level) {
   const std::uint32_t n = level.rows.size();
   Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(n, n);
   for (std::uint32_t i = 0; i < n; ++i)
@@ -80,11 +87,13 @@ BlockVector<K, double> coarsestVectors(const MultigridLevel& level) {
       scaled(i, i) += weight / level.mass[i];
     }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-  BlockVector<K, double> x(n);
-  for (std::uint32_t i = 0; i < n; ++i)
-    for (int c = 0; c < K; ++c)
-      x[i][c] = solver.eigenvectors()(i, 1 + c) / std::sqrt(static_cast<double>(level.mass[i]));
-  return x;
+  EigenStart<K> start{BlockVector<K, double>(n), {}};
+  for (int c = 0; c < K; ++c) {
+    start.values[c] = solver.eigenvalues()[1 + c];
+    for (std::uint32_t i = 0; i < n; ++i)
+      start.x[i][c] = solver.eigenvectors()(i, 1 + c) / std::sqrt(static_cast<double>(level.mass[i]));
+  }
+  return start;
 }
 
 template <int K>
@@ -128,38 +137,79 @@ BlockVector<K, double> prolonged(const MultigridLevel& fine, const BlockVector<K
   return x;
 }
 
+/// When an iteration ends (lobpcg.h).
+struct Goal {
+  double residual;
+  int wanted, mostIterations;
+};
+
 template <int K, class Weight>
 EigenReport<K> iterate(const EigenProblem<Weight>& problem, MultigridCycle<K>& cycle, std::size_t level,
-                       BlockVector<K, double>& x, double residual, int iterations) {
+                       BlockVector<K, double>& x, const Goal& goal) {
   const typename Lobpcg<K, Weight>::Precondition precondition =
       [&](const BlockVector<K, float>& b, BlockVector<K, float>& out) { cycle.apply(level, b, out); };
-  return Lobpcg<K, Weight>(problem, x, precondition).run(residual, iterations);
+  return Lobpcg<K, Weight>(problem, x, precondition).run(goal.residual, goal.wanted, goal.mostIterations);
 }
 
-/// K pairs: all but the last to the tolerance.
+/// Up from the coarsest level of more than K nodes, to be prolonged to the finest.
 template <int K>
-Eigenspace solveByMultigrid(const FractureGraph& graph, const GraphMultigrid& grid, double residual) {
+EigenStart<K> coarseStart(const GraphMultigrid& grid, double residual) {
   MultigridCycle<K> cycle(grid);
   std::size_t level = grid.levels.size() - 1;
   while (level > 0 && grid.levels[level].rows.size() <= K) --level;
-  BlockVector<K, double> x = grid.levels[level].rows.size() <= GraphMultigrid::coarsestSize
-                                 ? coarsestVectors<K>(grid.levels[level])
-                                 : anyVectors<K>(grid.levels[level].rows.size());
+  EigenStart<K> start = grid.levels[level].rows.size() <= GraphMultigrid::coarsestSize
+                            ? coarsestVectors<K>(grid.levels[level])
+                            : EigenStart<K>{anyVectors<K>(grid.levels[level].rows.size()), {}};
   while (level-- > 1) {
     const MultigridLevel& fine = grid.levels[level];
-    x = prolonged<K>(fine, x);
+    start.x = prolonged<K>(fine, start.x);
     const EigenProblem<float> problem{fine.rows.first, fine.rows.targets, fine.rows.weights, fine.mass};
-    iterate<K>(problem, cycle, level, x, std::max(residual, coarseResidual), coarseIterations);
+    const Goal goal{std::max(residual, coarseResidual), K - 1, coarseIterations};
+    start.values = iterate<K>(problem, cycle, level, start.x, goal).eigenvalues;
   }
-  if (x.size() < grid.levels[0].rows.size()) x = prolonged<K>(grid.levels[0], x);
+  return start;
+}
+
+/// The `wanted` first of K pairs to the tolerance.
+template <int K>
+Eigenspace refine(const FractureGraph& graph, const GraphMultigrid& grid, const BlockVector<K, double>& start,
+                  double residual, int wanted) {
+  MultigridCycle<K> cycle(grid);
+  BlockVector<K, double> x = start.size() < grid.levels[0].rows.size() ? prolonged<K>(grid.levels[0], start) : start;
   const EigenProblem<double> problem{graph.first, graph.targets, graph.weights, grid.levels[0].mass};
-  const EigenReport<K> report = iterate<K>(problem, cycle, 0, x, residual, mostIterations);
+  const EigenReport<K> report = iterate<K>(problem, cycle, 0, x, Goal{residual, wanted, mostIterations});
   Eigenspace space{{report.eigenvalues.begin(), report.eigenvalues.end()}, {}, 0, report.iterations};
   for (int c = 0; c < K; ++c) {
-    space.vectors.emplace_back(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) space.vectors.back()[i] = x[i][c];
+    std::vector<double>& vector = space.vectors.emplace_back(x.size());
+    forNodes(x.size(), [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) vector[i] = x[i][c];
+    });
   }
   return space;
+}
+
+/// A larger block, where several vectors belong to the first eigenvalue.
+template <int K>
+Eigenspace widerSpace(const FractureGraph& graph, const GraphMultigrid& grid, double residual) {
+  return refine<K>(graph, grid, coarseStart<K>(grid, residual).x, residual, K - 1);
+}
+
+template <int K, std::size_t More>
+BlockVector<K, double> firstColumns(const AlignedVector<std::array<double, More>>& x) {
+  BlockVector<K, double> columns(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) std::copy_n(x[i].begin(), K, columns[i].begin());
+  return columns;
+}
+
+/// As many vectors as have eigenvalues near the first, as the coarse levels see it: without those (three of anything
+/// round) they would creep into the first and out again. Two at least where the second eigenvalue is to be known.
+Eigenspace narrowSpace(const FractureGraph& graph, const GraphMultigrid& grid, double residual) {
+  constexpr double near = 1.5, rough = 1e-3;
+  const EigenStart<3> start = coarseStart<3>(grid, residual);
+  if (start.values[2] < near * start.values[0]) return refine<3>(graph, grid, start.x, residual, 1);
+  if (residual > rough && start.values[1] > near * start.values[0])
+    return refine<1>(graph, grid, firstColumns<1>(start.x), residual, 1);
+  return refine<2>(graph, grid, firstColumns<2>(start.x), residual, 1);
 }
 
 /// A function without any symmetry, so that hardly any vector is orthogonal to it.
@@ -171,15 +221,17 @@ std::vector<double> compass(const FractureGraph& graph) {
   for (const Vec3d& p : graph.places) box.include(p);
   const double size = graph.places.empty() ? 0 : length(box.size());
   const Vec3d slope(1, 0.618, 0.382);
-  for (std::size_t i = 0; i < n; ++i)
-    values[i] = size > 0 ? portableExp(dot(slope, graph.places[i] - box.lower) * (2 / size)) : random.uniform(i);
+  forNodes(n, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i)
+      values[i] = size > 0 ? portableExp(dot(slope, graph.places[i] - box.lower) * (2 / size)) : random.uniform(i);
+  });
   return values;
 }
 
 double product(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+  return sumOverNodes<1>(a.size(), [&](std::uint32_t begin, std::uint32_t end, auto& sum) {
+    for (std::uint32_t i = begin; i < end; ++i) sum[0] += a[i] * b[i];
+  })[0];
 }
 
 /// The projection of the compass on the first `dimension` vectors, of unit length.
@@ -188,7 +240,9 @@ std::vector<double> canonicalVector(const FractureGraph& graph, const Eigenspace
   std::vector<double> result(needle.size(), 0);
   for (std::size_t c = 0; c < dimension; ++c) {
     const double along = product(needle, space.vectors[c]);
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] += along * space.vectors[c][i];
+    forNodes(result.size(), [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) result[i] += along * space.vectors[c][i];
+    });
   }
   const double norm = std::sqrt(product(result, result));
   CHECK(norm > 0, "an eigenvector without direction");
@@ -200,9 +254,9 @@ Eigenspace eigenspace(const FractureGraph& graph, const EigenTolerance& toleranc
   if (graph.nodeCount() <= directLimit) return solveDirectly(graph);
   const GraphMultigrid grid(graph);
   constexpr double suspicious = 1e-4;  // the third eigenvalue is known to about the tolerance only
-  Eigenspace space = solveByMultigrid<2>(graph, grid, tolerance.residual);
-  if (space.multiplicity(suspicious) == 2) space = solveByMultigrid<4>(graph, grid, tolerance.residual);
-  if (space.multiplicity(sameEigenvalue(tolerance)) == 4) space = solveByMultigrid<6>(graph, grid, tolerance.residual);
+  Eigenspace space = narrowSpace(graph, grid, tolerance.residual);
+  if (space.multiplicity(suspicious) >= 2) space = widerSpace<4>(graph, grid, tolerance.residual);
+  if (space.multiplicity(sameEigenvalue(tolerance)) == 4) space = widerSpace<6>(graph, grid, tolerance.residual);
   return space;
 }
 

@@ -10,6 +10,8 @@
 namespace brisance {
 namespace {
 
+using Numbers = AlignedVector<std::uint32_t>;
+
 constexpr std::uint32_t noNode = 0xFFFFFFFFu;
 
 /// At most 16 blocks, so that few edges lie between them, and none too small to be worth a thread.
@@ -32,19 +34,21 @@ void forBlocks(std::uint32_t rows, const Body& body) {
 /// In single precision and of weights about 1, whatever their unit.
 LaplacianRows finestRows(const FractureGraph& graph) {
   LaplacianRows rows;
-  rows.first = graph.first;
-  rows.targets = graph.targets;
-  rows.weights.assign(graph.targets.size(), 1.f);
-  if (!graph.weights.empty()) {
-    const double scale = 1 / *std::max_element(graph.weights.begin(), graph.weights.end());
-    for (std::size_t k = 0; k < graph.weights.size(); ++k)
-      rows.weights[k] = static_cast<float>(graph.weights[k] * scale);
-  }
+  rows.first.assign(graph.first.begin(), graph.first.end());
+  rows.targets.resize(graph.targets.size());
+  rows.weights.resize(graph.targets.size());
   rows.diagonal.resize(static_cast<std::size_t>(graph.nodeCount()));
+  const double scale = graph.weights.empty() ? 1 : 1 / *std::max_element(graph.weights.begin(), graph.weights.end());
   forNodes(rows.diagonal.size(), [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i)
-      rows.diagonal[i] =
-          std::accumulate(rows.weights.begin() + rows.first[i], rows.weights.begin() + rows.first[i + 1], 0.f);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      float diagonal = 0;
+      for (std::uint32_t k = rows.first[i]; k < rows.first[i + 1]; ++k) {
+        rows.targets[k] = graph.targets[k];
+        rows.weights[k] = graph.weights.empty() ? 1.f : static_cast<float>(graph.weights[k] * scale);
+        diagonal += rows.weights[k];
+      }
+      rows.diagonal[i] = diagonal;
+    }
   });
   return rows;
 }
@@ -58,13 +62,15 @@ class Pairing {
       if (leader_[i] == noNode) join(i);
   }
   /// Number of each node's aggregate, in the order of their leaders.
-  std::vector<std::uint32_t> aggregates(std::uint32_t& count) const {
-    std::vector<std::uint32_t> number(leader_.size());
+  Numbers aggregates(std::uint32_t& count) const {
+    Numbers number(leader_.size());
     count = 0;
     for (std::uint32_t i = 0; i < leader_.size(); ++i)
       if (leader_[i] == i) number[i] = count++;
-    std::vector<std::uint32_t> result(leader_.size());
-    for (std::uint32_t i = 0; i < leader_.size(); ++i) result[i] = number[leader_[i]];
+    Numbers result(leader_.size());
+    forNodes(leader_.size(), [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) result[i] = number[leader_[i]];
+    });
     return result;
   }
 
@@ -102,33 +108,33 @@ class Pairing {
   }
 
   const LaplacianRows& rows_;
-  std::vector<std::uint32_t> leader_;
+  Numbers leader_;
 };
 
 struct Members {
-  std::vector<std::uint32_t> first, nodes;
+  Numbers first, nodes;
 };
 
-Members membersOf(const std::vector<std::uint32_t>& aggregateOf, std::uint32_t count) {
-  Members members{std::vector<std::uint32_t>(count + 1, 0), std::vector<std::uint32_t>(aggregateOf.size())};
+Members membersOf(const Numbers& aggregateOf, std::uint32_t count) {
+  Members members{Numbers(count + 1, 0), Numbers(aggregateOf.size())};
   for (const std::uint32_t a : aggregateOf) ++members.first[a + 1];
   std::partial_sum(members.first.begin(), members.first.end(), members.first.begin());
-  std::vector<std::uint32_t> next(members.first.begin(), members.first.end() - 1);
+  Numbers next(members.first.begin(), members.first.end() - 1);
   for (std::uint32_t i = 0; i < aggregateOf.size(); ++i) members.nodes[next[aggregateOf[i]]++] = i;
   return members;
 }
 
 /// Rows of some aggregates: edges between their nodes added up.
 struct RowsOfBlock {
-  std::vector<std::uint32_t> lengths, targets;
-  std::vector<float> weights, diagonal;
+  Numbers lengths, targets;
+  AlignedVector<float> weights, diagonal;
 };
 
-RowsOfBlock coarseBlock(const LaplacianRows& fine, const std::vector<std::uint32_t>& aggregateOf,
-                        const Members& members, std::uint32_t begin, std::uint32_t end) {
+RowsOfBlock coarseBlock(const LaplacianRows& fine, const Numbers& aggregateOf, const Members& members,
+                        std::uint32_t begin, std::uint32_t end) {
   RowsOfBlock block;
-  std::vector<std::uint32_t> placeOf(members.first.size() - 1,
-                                     0);  // 1 + place of a target in the block, if in this row
+  Numbers placeOf(members.first.size() - 1,
+                  0);  // 1 + place of a target in the block, if in this row
   for (std::uint32_t a = begin; a < end; ++a) {
     const std::size_t rowBegin = block.targets.size();
     double diagonal = 0;
@@ -151,8 +157,7 @@ RowsOfBlock coarseBlock(const LaplacianRows& fine, const std::vector<std::uint32
   return block;
 }
 
-LaplacianRows coarseRows(const LaplacianRows& fine, const std::vector<std::uint32_t>& aggregateOf,
-                         const Members& members) {
+LaplacianRows coarseRows(const LaplacianRows& fine, const Numbers& aggregateOf, const Members& members) {
   const auto count = static_cast<std::uint32_t>(members.first.size() - 1);
   const std::uint32_t blockRows = rowsPerBlock(count);
   std::vector<RowsOfBlock> blocks((count + blockRows - 1) / blockRows);
@@ -160,13 +165,18 @@ LaplacianRows coarseRows(const LaplacianRows& fine, const std::vector<std::uint3
     blocks[b] = coarseBlock(fine, aggregateOf, members, begin, end);
   });
   LaplacianRows rows;
+  rows.first.reserve(count + 1);
   rows.first.push_back(0);
-  for (const RowsOfBlock& block : blocks) {
+  for (const RowsOfBlock& block : blocks)
     for (const std::uint32_t length : block.lengths) rows.first.push_back(rows.first.back() + length);
-    rows.targets.insert(rows.targets.end(), block.targets.begin(), block.targets.end());
-    rows.weights.insert(rows.weights.end(), block.weights.begin(), block.weights.end());
-    rows.diagonal.insert(rows.diagonal.end(), block.diagonal.begin(), block.diagonal.end());
-  }
+  rows.targets.resize(rows.first.back());
+  rows.weights.resize(rows.first.back());
+  rows.diagonal.resize(count);
+  forBlocks(count, [&](std::uint32_t b, std::uint32_t begin, std::uint32_t) {
+    std::copy(blocks[b].targets.begin(), blocks[b].targets.end(), rows.targets.begin() + rows.first[begin]);
+    std::copy(blocks[b].weights.begin(), blocks[b].weights.end(), rows.weights.begin() + rows.first[begin]);
+    std::copy(blocks[b].diagonal.begin(), blocks[b].diagonal.end(), rows.diagonal.begin() + begin);
+  });
   return rows;
 }
 
@@ -197,18 +207,24 @@ void orderEntries(MultigridLevel& level) {
 /// Fills in how the level goes over into the next, and returns that.
 MultigridLevel coarsen(MultigridLevel& level) {
   std::uint32_t pairs = 0, count = 0;
-  const std::vector<std::uint32_t> pairOf = Pairing(level.rows).aggregates(pairs);
+  const Numbers pairOf = Pairing(level.rows).aggregates(pairs);
   const LaplacianRows pairRows = coarseRows(level.rows, pairOf, membersOf(pairOf, pairs));
-  const std::vector<std::uint32_t> fourOf = Pairing(pairRows).aggregates(count);
+  const Numbers fourOf = Pairing(pairRows).aggregates(count);
   MultigridLevel coarse;
   coarse.rows = coarseRows(pairRows, fourOf, membersOf(fourOf, count));
   level.aggregateOf.resize(pairOf.size());
-  for (std::size_t i = 0; i < pairOf.size(); ++i) level.aggregateOf[i] = fourOf[pairOf[i]];
+  forNodes(pairOf.size(), [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) level.aggregateOf[i] = fourOf[pairOf[i]];
+  });
   Members members = membersOf(level.aggregateOf, count);
   level.memberFirst = std::move(members.first);
   level.members = std::move(members.nodes);
-  coarse.mass.assign(count, 0.f);
-  for (std::size_t i = 0; i < level.aggregateOf.size(); ++i) coarse.mass[level.aggregateOf[i]] += level.mass[i];
+  coarse.mass.resize(count);
+  forNodes(count, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t a = begin; a < end; ++a)
+      for (std::uint32_t m = level.memberFirst[a]; m < level.memberFirst[a + 1]; ++m)
+        coarse.mass[a] += level.mass[level.members[m]];
+  });
   return coarse;
 }
 

@@ -1,15 +1,16 @@
 // Coarser and coarser pictures of a weighted graph (algebraic multigrid by aggregation).
 #pragma once
 
+#include "base/aligned.h"
 #include "fracture/fracture_graph.h"
 
 namespace brisance {
 
 /// Rows of a graph's Laplacian: (L x)_i = sum over the entries of row i of weight (x_i - x_target).
 struct LaplacianRows {
-  std::vector<std::uint32_t> first, targets;
-  std::vector<float> weights;
-  std::vector<float> diagonal;  ///< sum of a row's weights
+  AlignedVector<std::uint32_t> first, targets;
+  AlignedVector<float> weights;
+  AlignedVector<float> diagonal;  ///< sum of a row's weights
   std::uint32_t size() const { return static_cast<std::uint32_t>(diagonal.size()); }
 };
 
@@ -17,11 +18,11 @@ struct LaplacianRows {
 /// above it in the same block, or outside the block, and rows hold the three kinds in this order.
 struct MultigridLevel {
   LaplacianRows rows;
-  std::vector<std::uint32_t> belowEnd, insideEnd;  ///< per row, where its entries below and those inside end
+  AlignedVector<std::uint32_t> belowEnd, insideEnd;  ///< per row, where its entries below and those inside end
   std::uint32_t blockRows = 1;
-  std::vector<float> mass;                          ///< per node, how many nodes of the finest level it stands for
-  std::vector<std::uint32_t> aggregateOf;           ///< node on the next level; empty on the coarsest
-  std::vector<std::uint32_t> memberFirst, members;  ///< nodes of each aggregate
+  AlignedVector<float> mass;                          ///< per node, how many nodes of the finest level it stands for
+  AlignedVector<std::uint32_t> aggregateOf;           ///< node on the next level; empty on the coarsest
+  AlignedVector<std::uint32_t> memberFirst, members;  ///< nodes of each aggregate
 };
 
 /// Levels from the graph itself down to `coarsestSize` nodes or fewer: on each, nodes are paired twice over along their

@@ -46,17 +46,18 @@ class Lobpcg {
     for (const float m : problem.mass) totalMass_ += m;
   }
 
-  /// Until the residual of every pair but the last is below the tolerance, and the last eigenvalue has come to rest: it
-  /// moves by less than ten times the tolerance, relative, in a step. (The last pair mostly helps the others to
-  /// converge: how fast they do depends on the gap to the first that is not in the block.)
-  EigenReport<K> run(double tolerance, int mostIterations) {
+  /// Until the residuals of the `wanted` first pairs are below the tolerance, and the eigenvalues of the others have
+  /// come to rest: they move by less than ten times the tolerance, relative, in a step. (The others mostly help: how
+  /// fast the first converge depends on the gap to what is not in the block.)
+  EigenReport<K> run(double tolerance, int wanted, int mostIterations) {
     xMean_ = mean(x_);
     applyLaplacian(x_, image_);
     update(ritzVectors(gram(1), K), 1);
     EigenReport<K> report = residual();
-    double lastEigenvalue = HUGE_VAL;
-    while (report.iterations < mostIterations && !reached(report, lastEigenvalue, tolerance)) {
-      lastEigenvalue = report.eigenvalues[K - 1];
+    std::array<double, K> before;
+    before.fill(HUGE_VAL);
+    while (report.iterations < mostIterations && !reached(report, before, tolerance, wanted)) {
+      before = report.eigenvalues;
       precondition_(residual_, correction_);
       correctionMean_ = mean(correction_);
       applyLaplacian(correction_, correctionImage_);
@@ -70,11 +71,14 @@ class Lobpcg {
   }
 
  private:
-  static bool reached(const EigenReport<K>& report, double lastEigenvalue, double tolerance) {
+  static bool reached(const EigenReport<K>& report, const std::array<double, K>& before, double tolerance, int wanted) {
     constexpr double atRest = 10;
-    for (int c = 0; c + 1 < K; ++c)
-      if (!(report.residuals[c] <= tolerance)) return false;
-    return std::abs(lastEigenvalue - report.eigenvalues[K - 1]) <= atRest * tolerance * report.eigenvalues[K - 1];
+    for (int c = 0; c < K; ++c) {
+      const double moved = std::abs(before[c] - report.eigenvalues[c]);
+      if (c < wanted ? !(report.residuals[c] <= tolerance) : !(moved <= atRest * tolerance * report.eigenvalues[c]))
+        return false;
+    }
+    return true;
   }
 
   double weight(std::uint32_t k) const {

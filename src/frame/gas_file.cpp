@@ -147,15 +147,18 @@ void appendGrid(std::string& whole, const std::string& one) {
   }
 }
 
-/// A file of all the grids, in their order.
-std::string joinGrids(std::span<const std::string> files) {
+/// A file of all the grids, in their order; takes the files' memory.
+std::string joinGrids(std::span<std::string> files) {
   std::size_t size = 0;
   for (const std::string& file : files) size += file.size();
   std::string whole;
   whole.reserve(size);
   whole.append(files[0], 0, FileStart::grids);
   writeAt(whole, FileStart::gridCount, static_cast<std::int32_t>(files.size()));
-  for (const std::string& file : files) appendGrid(whole, file);
+  for (std::string& file : files) {
+    appendGrid(whole, file);
+    file = {};
+  }
   return whole;
 }
 

@@ -32,7 +32,9 @@ void emitFuel(ParticleSet& particles, const ParticleSettings& settings, double t
   emitted.resize(settings.charges.size(), 0);
   for (std::size_t c = 0; c < settings.charges.size(); ++c) {
     const Charge& charge = settings.charges[c];
-    for (const std::uint64_t due = dueBy(charge, time); emitted[c] < due; ++emitted[c]) {
+    const std::uint64_t due = dueBy(charge, time);
+    if (emitted[c] == 0 && due > 0) forEachField(particles, [&](auto& field) { field.reserve(field.size() + due); });
+    for (; emitted[c] < due; ++emitted[c]) {
       NewParticle fuel;
       fuel.position = charge.position + random.onSphere(particles.nextId) * charge.radius;
       fuel.mass = settings.burning.mass;

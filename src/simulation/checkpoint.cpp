@@ -28,6 +28,24 @@ class Writer {
   std::string bytes;
 };
 
+/// How many bytes a Writer will make.
+class Measure {
+ public:
+  template <class T>
+  void value(const T&) {
+    bytes += sizeof(T);
+  }
+  template <class T>
+  void array(const std::vector<T>& v) {
+    bytes += sizeof(std::uint64_t) + v.size() * sizeof(T);
+  }
+  template <class T>
+  void fixedArray(const std::vector<T>& v) {
+    array(v);
+  }
+  std::size_t bytes = 0;
+};
+
 class Reader {
  public:
   Reader(const std::string& bytes, const std::string& fileName) : bytes_(bytes), fileName_(fileName) {}
@@ -90,7 +108,10 @@ void archive(Archive& a, State& world) {
 }  // namespace
 
 std::string writeCheckpoint(const WorldState& world) {
+  Measure measure;
+  archive(measure, world);
   Writer writer;
+  writer.bytes.reserve(sizeof magic + measure.bytes);  // growing, it would take half as much again
   writer.value(magic);
   archive(writer, world);
   return std::move(writer.bytes);

@@ -1,8 +1,10 @@
 #include "fluid/fluid_step.h"
 
+#include "fluid/cooling.h"
 #include "fluid/fluid_fixture.h"
 #include "fluid/forces.h"
 #include "fluid/temperature.h"
+#include "fluid/vorticity.h"
 
 namespace brisance {
 namespace {
@@ -16,6 +18,18 @@ TEST(Temperature, CoolingFollowsItsClosedForm) {
   for (int n = 0; n < steps; ++n) theta -= rate * std::pow(theta / range, 4) * time / steps;
   EXPECT_NEAR(cooled(start, range, rate, time), theta, 0.01);
   EXPECT_NEAR(cooled(cooled(start, range, rate, 0.1), range, rate, 0.2), cooled(start, range, rate, 0.3), 1e-9 * start);
+}
+
+TEST(Temperature, RowsCoolByTheClosedFormToTheRoundingOfSinglePrecision) {
+  FluidSettings s;
+  for (const double dt : {1e-5, 1e-3, 0.1, 10.0}) {
+    const HeatRow row(s, dt);
+    for (float T = 250; T < 6000; T += 7.3f) {
+      const double above = double(T) - s.ambientTemperature, range = s.maximumTemperature - s.ambientTemperature;
+      const double exact = s.ambientTemperature + cooled(above, range, s.coolingRate, dt);
+      EXPECT_NEAR(row.cooled(T), exact, 4e-7 * exact) << T << " K, " << dt << " s";  // a few roundings of 6e-8
+    }
+  }
 }
 
 TEST(Temperature, GasBelowAmbientDoesNotCool) { EXPECT_EQ(cooled(-20, 2000, 2500, 1), -20); }
@@ -170,7 +184,8 @@ TEST(Forces, ConfinementSpinsUpAVortexAndLeavesStillGasAlone) {
   FluidSettings s = box({16, 16, 16});
   s.vorticityConfinement = 1;
   FluidState still = gasIn(s);
-  confineVorticity(still, s, 0.1);
+  MacVelocity scratch;
+  confineVorticity(still, s, 0.1, scratch);
   for (const float u : still.velocity.u.values) EXPECT_EQ(u, 0);
   FluidState gas = gasIn(s);
   const auto around = [](const Vec3d& p) {
@@ -179,7 +194,7 @@ TEST(Forces, ConfinementSpinsUpAVortexAndLeavesStillGasAlone) {
   setComponent(gas.velocity.u, [&](const Vec3d& p) { return -(p.y - .5) * around(p); });
   setComponent(gas.velocity.v, [&](const Vec3d& p) { return (p.x - .5) * around(p); });
   const float before = gas.velocity.v(10, 8, 8);
-  confineVorticity(gas, s, 0.1);
+  confineVorticity(gas, s, 0.1, scratch);
   EXPECT_GT(gas.velocity.v(10, 8, 8), before);
 }
 

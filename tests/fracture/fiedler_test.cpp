@@ -199,7 +199,7 @@ BlockVector<K, double> iterateFrom(const FractureGraph& graph, std::uint64_t see
   const typename Lobpcg<K, double>::Precondition precondition = [&](const auto& b, auto& out) {
     cycle.apply(0, b, out);
   };
-  const EigenReport<K> report = Lobpcg<K, double>(problem, x, precondition).run(1e-6, 200);
+  const EigenReport<K> report = Lobpcg<K, double>(problem, x, precondition).run(1e-6, 3, 200);
   EXPECT_LT(report.iterations, 200);
   return x;
 }

@@ -1,0 +1,33 @@
+// The donor-cell step of an explosion in two sweeps over memory: one for all scalars with what heats, cools and burns
+// them, one for the velocity with what accelerates it. What advection.h, temperature.h and forces.h do one after the
+// other, while the rows at hand are in the nearest cache.
+#pragma once
+
+#include "base/report.h"
+#include "fluid/fluid_state.h"
+
+namespace brisance {
+
+/// Where the sweeps write; swapped with the state.
+struct SweepScratch {
+  MacVelocity velocity;
+  Grid3<float> temperature, soot, flame;
+};
+
+/// Whether they do all that the settings ask for in a step of some Courant number.
+bool sweepsSuffice(const FluidSettings& settings, double courant);
+
+/// What a step of dt [s] adds to soot and flame.
+struct Burning {
+  double sootPerMass, flameLifetime;  ///< [1], [s]
+};
+
+/// Carries temperature, soot and flame over dt [s], heats and cools the gas, adds what burnt. Returns the balance of
+/// heat [J].
+Balance sweepScalars(FluidState& gas, const FluidSettings& settings, const Burning& burning, double dt,
+                     SweepScratch& scratch);
+
+/// Carries the velocity over dt [s] and adds external forces and buoyancy; closed faces keep their speed.
+void sweepVelocity(FluidState& gas, const FluidSettings& settings, double dt, SweepScratch& scratch);
+
+}  // namespace brisance

@@ -1,0 +1,198 @@
+#include "fluid/donor_sweep.h"
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "base/vector_path.h"
+#include "fluid/advection.h"
+#include "fluid/fluid_fixture.h"
+#include "fluid/forces.h"
+#include "fluid/temperature.h"
+#include "fluid/vorticity.h"
+#include "mesh/shapes.h"
+
+namespace brisance {
+namespace {
+using namespace test;
+
+constexpr double dt = 0.004, sootPerMass = 0.7;
+
+FluidSettings forcedBox(const Faces& faces) {
+  FluidSettings s = box({21, 18, 19});
+  s.faces = faces;
+  s.coolingRate = 2500;
+  s.buoyancy = 0.02;
+  s.force = {0.3, -0.2, 0.1};
+  s.wind = {0.5, -0.4, 0.2};
+  s.advection = DonorCell{0.8};
+  s.vorticityConfinement = 0.7;
+  return s;
+}
+
+void fillAtRandom(Grid3<float>& grid, float low, float high, std::uint64_t seed) {
+  const Random random(seed, Stream::test);
+  for (std::int64_t n = 0; n < grid.count(); ++n)
+    grid.values[n] = low + (high - low) * static_cast<float>(random.uniform(static_cast<std::uint64_t>(n)));
+}
+
+/// Speeds of about 1, both signs on every face, joined where the box is periodic.
+FluidState roughGas(const FluidSettings& s, bool solids) {
+  const MovingSolid block{
+      std::make_shared<const TriangleMesh>(boxMesh({.2, .3, .25}, false)), {{.5, .45, .5}, {}}, {}, {}};
+  FluidState gas = solids ? gasIn(s, std::array{block}) : gasIn(s);
+  for (int axis = 0; axis < 3; ++axis) {
+    Grid3<float>& speed = gas.velocity.component(axis);
+    fillAtRandom(speed, -1, 1, axis);
+    const auto& open = gas.solid.openShare.component(axis).values;
+    for (std::size_t n = 0; n < open.size(); ++n) speed.values[n] *= open[n] > 0 ? 1.0f : 0.0f;
+    if (s.faces[2 * axis] != FaceKind::periodic) continue;
+    for (int k = 0; k < speed.size.z; ++k)
+      for (int j = 0; j < speed.size.y; ++j)
+        for (int i = 0; i < speed.size.x; ++i) {
+          Vec3i from{i, j, k};
+          if (from[axis] + 1 == speed.size[axis]) from[axis] = 0;
+          speed(i, j, k) = speed(from.x, from.y, from.z);
+        }
+  }
+  fillAtRandom(gas.temperature, 280, 2500, 4);
+  fillAtRandom(gas.soot, 0, 1, 5);
+  fillAtRandom(gas.flame, 0, 1, 6);
+  fillAtRandom(gas.burnRate, 0, 3, 7);
+  for (std::int64_t n = 0; n < gas.burnRate.count(); ++n) {
+    if (gas.solid.inside.values[n]) gas.burnRate.values[n] = 0;
+    gas.heatRate.values[n] = 1000 * gas.burnRate.values[n];
+  }
+  return gas;
+}
+
+std::vector<FluidSettings> allKindsOfBoxes() {
+  using enum FaceKind;
+  return {forcedBox(allFaces(open)), forcedBox(allFaces(periodic)),
+          forcedBox({open, noSlip, freeSlip, open, noSlip, freeSlip}),
+          forcedBox({periodic, periodic, noSlip, open, open, freeSlip})};
+}
+
+void expectSameFields(const FluidState& a, const FluidState& b, double speedTolerance) {
+  EXPECT_LT(largestDifference(a.temperature.values, b.temperature.values), 2e-3);  // of 2500 K, a dozen roundings
+  EXPECT_LT(largestDifference(a.soot.values, b.soot.values), 2e-6);
+  EXPECT_LT(largestDifference(a.flame.values, b.flame.values), 2e-6);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_LT(largestDifference(a.velocity.component(axis).values, b.velocity.component(axis).values), speedTolerance);
+}
+
+TEST(DonorSweep, DoesWhatTheStepsDoOneAfterTheOtherInEveryKindOfBox) {
+  for (const FluidSettings& s : allKindsOfBoxes())
+    for (const bool solids : {false, true}) {
+      FluidState swept = roughGas(s, solids), stepped = swept;
+      SweepScratch sweep;
+      const Balance heat = sweepScalars(swept, s, {sootPerMass, s.flameLifetime}, dt, sweep);
+      sweepVelocity(swept, s, dt, sweep);
+
+      AdvectionScratch scratch;
+      const double before = heatContent(stepped, s);
+      Balance expected = advectScalar(stepped.temperature, stepped, s, 300, dt, scratch);
+      expected.in *= s.heatCapacity;
+      expected.out *= s.heatCapacity;
+      expected += heatAndCool(stepped, s, dt);
+      advectScalar(stepped.soot, stepped, s, 0, dt, scratch);
+      advectScalar(stepped.flame, stepped, s, 0, dt, scratch);
+      for (std::int64_t n = 0; n < stepped.soot.count(); ++n) {
+        const double burnt = dt * stepped.burnRate.values[n];
+        stepped.soot.values[n] += static_cast<float>(sootPerMass * burnt);
+        stepped.flame.values[n] = static_cast<float>(stepped.flame.values[n] * std::exp(-dt / s.flameLifetime) + burnt);
+      }
+      advectVelocity(stepped, s, dt, scratch);
+      addForces(stepped, s, dt);
+      expectSameFields(swept, stepped, 2e-6);
+      EXPECT_NEAR(heat.in / expected.in, 1, 1e-5);
+      EXPECT_NEAR(heat.lost / expected.lost, 1, 1e-5);
+      EXPECT_NEAR(heat.out, expected.out, 1e-5 * heat.in);
+      EXPECT_NEAR(heat.gained, heatContent(stepped, s) - before, 1e-5 * heat.in);
+    }
+}
+
+TEST(DonorSweep, HasTheSameBitsWithAnyVectorsAndThreads) {
+  for (const FluidSettings& s : allKindsOfBoxes()) {
+    const auto swept = [&](VectorPath path, int threads) {
+      const ThreadLimit limit(threads);
+      forceVectorPath(path);
+      FluidState gas = roughGas(s, true);
+      SweepScratch scratch;
+      sweepScalars(gas, s, {sootPerMass, s.flameLifetime}, dt, scratch);
+      sweepVelocity(gas, s, dt, scratch);
+      confineVorticity(gas, s, dt, scratch.velocity);
+      forceVectorPath(VectorPath::avx512);
+      return gas;
+    };
+    const FluidState plain = swept(VectorPath::plain, 1);
+    expectSameFields(plain, swept(VectorPath::avx2, 2), 1e-30);
+    EXPECT_EQ(plain.velocity, swept(VectorPath::avx512, 2).velocity);
+    EXPECT_EQ(plain.temperature, swept(VectorPath::avx512, 3).temperature);
+  }
+}
+
+/// The force of Fedkiw, Stam & Jensen at one cell away from the faces, in double.
+Vec3d forceAt(const MacVelocity& m, double h, int i, int j, int k) {
+  const auto centre = [&](int a, int b, int c) {
+    return Vec3d(m.u(a, b, c) + double(m.u(a + 1, b, c)), m.v(a, b, c) + double(m.v(a, b + 1, c)),
+                 m.w(a, b, c) + double(m.w(a, b, c + 1))) *
+           0.5;
+  };
+  const auto omega = [&](int a, int b, int c) {
+    const Vec3d dx = centre(a + 1, b, c) - centre(a - 1, b, c), dy = centre(a, b + 1, c) - centre(a, b - 1, c),
+                dz = centre(a, b, c + 1) - centre(a, b, c - 1);
+    return Vec3d(dy.z - dz.y, dz.x - dx.z, dx.y - dy.x) / (2 * h);
+  };
+  const auto size = [&](int a, int b, int c) { return length(omega(a, b, c)); };
+  const Vec3d gradient(size(i + 1, j, k) - size(i - 1, j, k), size(i, j + 1, k) - size(i, j - 1, k),
+                       size(i, j, k + 1) - size(i, j, k - 1));
+  return cross(normalized(gradient), omega(i, j, k));
+}
+
+TEST(Vorticity, TheForceIsThatOfItsDefinition) {
+  const FluidSettings s = forcedBox(allFaces(FaceKind::open));
+  const FluidState before = roughGas(s, false);
+  FluidState gas = before;
+  MacVelocity scratch;
+  confineVorticity(gas, s, dt, scratch);
+  const double strength = dt * s.vorticityConfinement * s.cellSize;
+  for (int k = 3; k < s.cells.z - 3; ++k)
+    for (int j = 3; j < s.cells.y - 3; ++j)
+      for (int i = 3; i < s.cells.x - 3; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+          const Vec3i below = Vec3i(i, j, k) - Vec3i(axis == 0, axis == 1, axis == 2);
+          const double force = forceAt(before.velocity, s.cellSize, i, j, k)[axis] +
+                               forceAt(before.velocity, s.cellSize, below.x, below.y, below.z)[axis];
+          const double gained =
+              double(gas.velocity.component(axis)(i, j, k)) - before.velocity.component(axis)(i, j, k);
+          EXPECT_NEAR(gained, 0.5 * strength * force, 1e-6);
+        }
+}
+
+TEST(Vorticity, APeriodicBoxHasNoBeginning) {
+  FluidSettings s = forcedBox(allFaces(FaceKind::periodic));
+  s.cells = {12, 10, 11};
+  const auto confined = [&](const Vec3i& shift) {
+    FluidState gas = gasIn(s);
+    for (int axis = 0; axis < 3; ++axis) {
+      Grid3<float>& speed = gas.velocity.component(axis);
+      const Random random(axis, Stream::test);
+      for (int k = 0; k < speed.size.z; ++k)
+        for (int j = 0; j < speed.size.y; ++j)
+          for (int i = 0; i < speed.size.x; ++i) {
+            const Vec3i at((i + shift.x) % s.cells.x, (j + shift.y) % s.cells.y, (k + shift.z) % s.cells.z);
+            speed(i, j, k) = static_cast<float>(random.uniform(at.x + 100 * at.y + 10000 * at.z) - .5);
+          }
+    }
+    MacVelocity scratch;
+    confineVorticity(gas, s, dt, scratch);
+    return gas.velocity;
+  };
+  const MacVelocity first = confined({0, 0, 0}), shifted = confined({5, 3, 7});
+  for (int k = 0; k < s.cells.z; ++k)
+    for (int j = 0; j < s.cells.y; ++j)
+      for (int i = 0; i < s.cells.x; ++i)
+        EXPECT_EQ(shifted.w(i, j, k), first.w((i + 5) % 12, (j + 3) % 10, (k + 7) % 11));
+}
+
+}  // namespace
+}  // namespace brisance
