@@ -160,8 +160,10 @@ class ScalarSweep {
     sums.heated += heat.heated;
     sums.radiated += heat.radiated;
     sums.gained += laneSum(n, [&](std::int64_t i) { return T[i] - s.here[i]; });  // 0 in solids
-    sums.created +=
-        laneSum(n, [&](std::int64_t i) { return inside[i] ? 0 : (s.here[i] - ambient_) * sides.divergence(i); });
+    sums.created += laneSum(n, [&](std::int64_t i) {
+      const float brought = (s.here[i] - ambient_) * sides.divergence(i);
+      return inside[i] ? 0 : brought;
+    });
   }
 
   /// Through those of the box's faces that the row lies at.

@@ -91,6 +91,7 @@ struct FluidSettings {
   double ambientTemperature = 300;   ///< T_a [K]
   double maximumTemperature = 2675;  ///< T_max [K], the scale of the cooling term
   double heatCapacity = 1200;        ///< rho c_p [J/(m3 K)]
+  double density = 1.2;              ///< rho [kg/m3] of the gas whose pressure pushes bodies
   Vec3d force;                       ///< g_x, g_y, g_z on the gas [m/s2]
   double buoyancy = 0;               ///< upward (+y) acceleration per kelvin above ambient [m/(s2 K)]
   double vorticityConfinement = 0;   ///< epsilon of Fedkiw, Stam & Jensen 2001, dimensionless

@@ -104,9 +104,13 @@ double longestStep(const FluidState& gas, const FluidSettings& s, double largest
 }
 
 std::string findNotFinite(const FluidState& gas) {
-  const std::pair<const char*, const Grid3<float>*> grids[] = {
-      {"velocity u", &gas.velocity.u}, {"velocity v", &gas.velocity.v},   {"velocity w", &gas.velocity.w},
-      {"pressure", &gas.pressure},     {"temperature", &gas.temperature}, {"soot", &gas.soot}};
+  const std::pair<const char*, const Grid3<float>*> grids[] = {{"velocity u", &gas.velocity.u},
+                                                               {"velocity v", &gas.velocity.v},
+                                                               {"velocity w", &gas.velocity.w},
+                                                               {"pressure", &gas.pressure},
+                                                               {"temperature", &gas.temperature},
+                                                               {"soot", &gas.soot},
+                                                               {"flame", &gas.flame}};
   for (const auto& [name, grid] : grids) {
     if (!anyNotFinite(*grid)) continue;
     for (std::int64_t n = 0; n < grid->count(); ++n)

@@ -211,9 +211,13 @@ void collectInputs(Scene& scene) {
     if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) add(mesh->file);
   for (const auto& [name, material] : scene.render.materials)
     if (const auto* image = std::get_if<ImageTexture>(&material.diffuse)) add(image->file);
+  if (scene.render.environment.file) add(*scene.render.environment.file);
 }
 
 void checkTogether(const Scene& scene, const Places& places) {
+  const SimulationSettings& s = scene.simulation;
+  if (std::holds_alternative<Pressure>(s.rigid.push) && s.bodiesInGas == BodiesInGas::pass)
+    places.refuse("rigid.push", "pressure pushes only what blocks the gas: set gas.bodies = \"block\"");
   checkFaces(scene, places);
   checkMotion(scene, places);
   checkTemperatures(scene, places);

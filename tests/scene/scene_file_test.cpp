@@ -138,7 +138,7 @@ TEST(SceneFile, EveryTableLandsInItsSettings) {
   EXPECT_EQ(s.particles.burning.burnRate, 0.21);
   ASSERT_EQ(s.particles.charges.size(), 2u);
   EXPECT_EQ(s.particles.charges[1].time, 0.25);
-  EXPECT_TRUE(std::holds_alternative<VertexSum>(s.rigid.push.quadrature));
+  EXPECT_TRUE(std::holds_alternative<VertexSum>(std::get<Drag>(s.rigid.push).quadrature));
   EXPECT_EQ(s.bodies[0].fracture.pieces, 16);
   EXPECT_TRUE(std::holds_alternative<Delaunay>(std::get<PaneSettings>(s.bodies[0].shape).triangulation));
   EXPECT_EQ(std::get<MassPerArea>(s.bodies[0].mass).perArea, 12.5);
