@@ -8,6 +8,7 @@
 #include "base/vector_path.h"
 #include "fluid/advection.h"
 #include "fluid/cooling.h"
+#include "fluid/donor_cell.h"
 #include "fluid/forces.h"
 #include "fluid/ghost_rows.h"
 
@@ -197,8 +198,9 @@ void sizeAs(Grid3<T>& grid, const Grid3<T>& model) {
 }
 }  // namespace
 
-bool sweepsSuffice(const FluidSettings& settings) {
-  return std::holds_alternative<DonorCell>(settings.advection) && settings.viscosity == 0 && settings.conductivity == 0;
+bool sweepsSuffice(const FluidSettings& settings, double courant) {
+  const auto* donor = std::get_if<DonorCell>(&settings.advection);
+  return donor && donorStages(*donor, courant) == 1 && settings.viscosity == 0 && settings.conductivity == 0;
 }
 
 Balance sweepScalars(FluidState& gas, const FluidSettings& settings, const Burning& burning, double dt,

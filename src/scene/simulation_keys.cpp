@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view faceNames[] = {"open", "no_slip", "free_slip", "periodic"};
 constexpr const char* faceKeys[] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
-constexpr std::string_view advectionNames[] = {"donor_cell"};
+constexpr std::string_view advectionNames[] = {"donor_cell", "maccormack", "semi_lagrangian"};
 constexpr std::string_view pressureNames[] = {"auto", "fast_poisson", "multigrid", "conjugate_gradient"};
 constexpr std::string_view pushNames[] = {"drag", "pressure"};
 constexpr std::string_view bodiesInGasNames[] = {"pass", "block"};
@@ -34,6 +34,26 @@ void describeFaces(KeyVisitor& v, Faces& faces) {
 
 void describeAdvection(KeyVisitor& v, DonorCell& scheme) {
   visit(v, {"upwind_weight", "", between(0, 1), "0 is central, 1 upwind differences"}, scheme.upwindWeight);
+}
+
+void describeAdvection(KeyVisitor& v, MacCormack& scheme) {
+  visit(v, {"clamped", "", anyValue, "to the values of the cell and its neighbours, so that nothing overshoots"},
+        scheme.clamped);
+}
+void describeAdvection(KeyVisitor&, SemiLagrangian&) {}
+
+void describeWallVelocity(KeyVisitor& v, std::array<Vec3d, 6>& velocity) {
+  for (std::size_t i = 0; i < velocity.size(); ++i)
+    visit(v, {faceKeys[i], "m/s", anyValue, "of a no_slip face, along itself"}, velocity[i]);
+}
+
+void describeStirring(KeyVisitor& v, Stirring& stirring) {
+  visit(v, {"centre", "m", anyValue, "of the cylinder of gas that is kept turning"}, stirring.centre);
+  visit(v, {"axis", "", anyValue, "of rotation, counter-clockwise seen from its tip"}, stirring.axis);
+  visit(v, {"radius", "m", above(0), "of the cylinder"}, stirring.radius);
+  visit(v, {"length", "m", above(0), "of the cylinder, along the axis", {}, "through the whole box"}, stirring.length);
+  visit(v, {"angular_speed", "rad/s", anyValue, "at which it turns; negative: the other way"}, stirring.angularSpeed);
+  visit(v, {"relaxation", "s", above(0), "in which its gas comes up to speed to 1/e"}, stirring.relaxation);
 }
 
 constexpr const char* giveUp = "after which it gives up and says so";
@@ -293,6 +313,7 @@ void describeGas(KeyVisitor& v, SceneDraft& draft) {
   FluidSettings& gas = draft.scene.simulation.fluid;
   describeLattice(v, draft.gas, {"nx, ny, nz", "5.1, 5.3"});
   visitTable(v, "faces", "what the faces of the box are", gas.faces, describeFaces);
+  visitTable(v, "wall_velocity", "of faces that are no_slip walls", gas.wallVelocity, describeWallVelocity);
   visitChoice(v,
               {"bodies", "", anyValue,
                "bodies that move: gas passes through them, as in the thesis, or they block and carry it"},
@@ -300,13 +321,16 @@ void describeGas(KeyVisitor& v, SceneDraft& draft) {
   visit(v, {"remove_mean_source", "", anyValue, "in a sealed space: let the gas that has no way out vanish"},
         gas.removeMeanSource);
   v.enter({"advection", "", anyValue, "how the flow carries things"}, true);
-  visitAlternatives(v, advectionNames, gas.advection, describeAdvection);
+  visitAlternatives(v, advectionNames, gas.advection,
+                    [](KeyVisitor& inner, auto& scheme) { describeAdvection(inner, scheme); });
   v.leave();
   v.enter({"pressure", "", anyValue, "how the pressure is solved for"}, true);
   visitAlternatives(v, pressureNames, gas.pressure,
                     [](KeyVisitor& inner, auto& solver) { describePressure(inner, solver); });
   v.leave();
   describeGasPhysics(v, gas);
+  visitArray(v, {"stirring", "", anyValue, "cylinders of gas that are kept turning"}, gas.stirring, Stirring{},
+             describeStirring);
   visit(v, {"courant", "", {0.01, 10}, "cells that the gas may cross in one sub-step"}, gas.courant);
   visit(v, {"max_substeps", "", between(1, 1e6), "per frame, beyond which the run stops as unstable"}, gas.maxSubsteps);
 }

@@ -28,6 +28,13 @@ faces = { y_lower = "free_slip", z_upper = "no_slip" }
 advection = { type = "donor_cell", upwind_weight = 0.9 }
 pressure = { type = "multigrid", tolerance = 1e-7 }
 force = [0.1, -0.2, 0.3]
+wall_velocity = { z_upper = [0.5, -1, 0] }
+[[gas.stirring]]
+centre = [0, 0.6, 0]
+radius = 0.4
+angular_speed = -2
+[[gas.stirring]]
+length = 0.1
 [explosion]
 burn_rate = 0.21
 soot_once = true
