@@ -99,7 +99,7 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
 
 double courantNumber(const FluidState& gas, double dt) {
   double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) sum += largestMagnitude(gas.velocity.component(axis));
+  for (int axis = 0; axis < 3; ++axis) sum += fastestGas(gas, axis, largestMagnitude(gas.velocity.component(axis)));
   return dt * sum / gas.pressure.cellSize;
 }
 
