@@ -28,7 +28,7 @@ struct PressureReport {
 /// One frame of simulation; sums over its sub-steps, and the worst of them where a sum makes no sense.
 struct StepReport {
   int substeps = 0;
-  double courant = 0;     ///< largest dt * sum(max|u_i|) / dx
+  double courant = 0;     ///< largest dt * sum(|u_i|) / dx of any cell
   double divergence = 0;  ///< largest L2 norm of div u - phi relative to that of phi, computed from the final velocity
   PressureReport pressure;
   Balance volume;  ///< [m3] gas: created by the source, and out through the open faces

@@ -296,6 +296,13 @@ int donorStages(const DonorCell& scheme, double courant) {
   return scheme.upwindWeight >= enoughForTwo ? 2 : 3;
 }
 
+namespace {
+inline float largerSpeed(float a, float b) {
+  a = std::abs(a), b = std::abs(b);
+  return a > b ? a : b;
+}
+}  // namespace
+
 double largestMagnitude(const Grid3<float>& grid) {
   return parallelMax(grid.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
     float largest = 0;
@@ -305,9 +312,24 @@ double largestMagnitude(const Grid3<float>& grid) {
 }
 
 double courantOfSpeeds(const FluidState& gas, double dt) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) sum += largestMagnitude(gas.velocity.component(axis));
-  return dt * sum / gas.pressure.cellSize;
+  const Vec3i n = gas.pressure.size;
+  const MacVelocity& m = gas.velocity;
+  const double fastest = parallelMax(std::int64_t{n.y} * n.z, 64, [&](std::int64_t first, std::int64_t last) {
+    float largest = 0;
+    runWide([&] {
+      for (std::int64_t row = first; row < last; ++row) {
+        const int j = static_cast<int>(row % n.y), k = static_cast<int>(row / n.y);
+        const float *u = &m.u(0, j, k), *below = &m.v(0, j, k), *above = &m.v(0, j + 1, k), *behind = &m.w(0, j, k),
+                    *before = &m.w(0, j, k + 1);
+        const float inRow = laneMax(n.x, [&](std::int64_t i) {
+          return largerSpeed(u[i], u[i + 1]) + largerSpeed(below[i], above[i]) + largerSpeed(behind[i], before[i]);
+        });
+        largest = std::max(largest, inRow);
+      }
+    });
+    return static_cast<double>(largest);
+  });
+  return dt * fastest / gas.pressure.cellSize;
 }
 
 }  // namespace brisance

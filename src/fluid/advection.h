@@ -35,7 +35,7 @@ Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSet
 int donorStages(const DonorCell& scheme, double courant);
 
 double largestMagnitude(const Grid3<float>& grid);
-/// dt sum(max |u_i|) / h of the speeds as they stand at the faces.
+/// The largest of all cells' dt sum |u_i| / h, of the faster of two opposite faces along each axis, as they stand.
 double courantOfSpeeds(const FluidState& gas, double dt);
 
 }  // namespace brisance

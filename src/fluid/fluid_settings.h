@@ -99,7 +99,7 @@ struct FluidSettings {
   Vec3d wind;                        ///< [m/s] of the air outside and, at first, inside
   std::vector<Stirring> stirring;
   double startVelocity = 0;   ///< [m/s] deviation of the random start velocities (thesis 2.4.3)
-  double courant = 1.0;       ///< dt sum(max|u_i|)/dx stays below
+  double courant = 1.0;       ///< dt sum(|u_i|)/dx stays below, in every cell
   double maxSubsteps = 2000;  ///< per frame, beyond which the run stops as unstable
 };
 

@@ -94,9 +94,7 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
 }
 
 double courantNumber(const FluidState& gas, double dt) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) sum += fastestGas(gas, axis, largestMagnitude(gas.velocity.component(axis)));
-  return dt * sum / gas.pressure.cellSize;
+  return std::max(courantOfSpeeds(gas, dt), dt * fastestCutCell(gas) / gas.pressure.cellSize);
 }
 
 double longestStep(const FluidState& gas, const FluidSettings& s, double largestSource) {

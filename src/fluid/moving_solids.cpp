@@ -125,22 +125,32 @@ void takeMeanVelocity(FluidState& gas) {
   }
 }
 
-double fastestGas(const FluidState& gas, int axis, double fastestMean) {
+double fastestCutCell(const FluidState& gas) {
+  if (gas.solid.empty) return 0;
   const Vec3i n = gas.solid.inside.size;
-  const Grid3<float>&mean = gas.velocity.component(axis), &open = gas.solid.openShare.component(axis);
-  for (const BodyFace& f : gas.solid.bodyFaces)
-    if (f.axis == axis && open.values[f.index] > 0)
-      fastestMean = std::max(fastestMean, std::abs(gasSpeed(gas, axis, f.index)));
+  const auto isCut = [&](int j, int k) {
+    return j < n.y && k < n.z && gas.solid.cutRows[j + static_cast<std::size_t>(n.y) * k];
+  };
+  const auto speed = [&](int axis, std::int64_t at) {
+    const float share = gas.solid.openShare.component(axis).values[at];
+    return std::abs(share > 0 && share < 1 ? gasSpeed(gas, axis, at) : gas.velocity.component(axis).values[at]);
+  };
+  const auto sum = [&](int i, int j, int k) {
+    double along = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Grid3<float>& faces = gas.velocity.component(axis);
+      const std::int64_t lower = faces.index(i, j, k);
+      along += std::max(speed(axis, lower), speed(axis, lower + faces.stride(axis)));
+    }
+    return along;
+  };
   return parallelMax(n.z, 1, [&](std::int64_t first, std::int64_t last) {
-    double fastest = fastestMean;
+    double fastest = 0;
     for (int k = static_cast<int>(first); k < last; ++k)
       for (int j = 0; j < n.y; ++j) {
-        if (!gas.solid.cutRows[j + static_cast<std::size_t>(n.y) * k]) continue;
-        for (std::int64_t at = mean.index(0, j, k), end = at + mean.size.x; at < end; ++at) {
-          const float share = open.values[at];
-          if (share == 0 || share == 1 || std::abs(mean.values[at]) <= share * fastest) continue;
-          fastest = std::max(fastest, std::abs(gasSpeed(gas, axis, at)));
-        }
+        if (!isCut(j, k) && !isCut(j + 1, k) && !isCut(j, k + 1)) continue;
+        for (int i = 0; i < n.x; ++i)
+          if (!gas.solid.inside(i, j, k)) fastest = std::max(fastest, static_cast<double>(sum(i, j, k)));
       }
     return fastest;
   });

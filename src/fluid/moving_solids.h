@@ -13,8 +13,9 @@ namespace brisance {
 void takeGasVelocity(FluidState& gas);
 void takeMeanVelocity(FluidState& gas);
 
-/// The fastest gas along an axis in the open part of any face, where the mean velocity reaches `fastestMean` [m/s].
-double fastestGas(const FluidState& gas, int axis, double fastestMean);
+/// Of cells with cut faces: the largest sum over the axes of the faster gas in the open parts of two opposite faces
+/// [m/s]; 0 where no face is cut.
+double fastestCutCell(const FluidState& gas);
 
 /// Puts the moving bodies where they are now, with their velocities. Cells that they uncover get what the gas around
 /// them has.
