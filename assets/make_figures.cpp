@@ -18,6 +18,11 @@ void drawAll(const std::filesystem::path& directory) {
   writeDrawing(directory / "figure_4_3.svg", vibratingStringFigure());
   writeDrawing(directory / "struck_pane.svg", struckPaneFigure());
   writeDrawing(directory / "outlines.svg", outlinesFigure());
+  writeDrawing(directory / "vortex_decay.svg", vortexDecayFigure());
+  writeDrawing(directory / "gas_orders.svg", gasOrderFigure());
+  const CavityFigures cavity = cavityFigures();
+  writeDrawing(directory / "cavity_u.svg", cavity.u);
+  writeDrawing(directory / "cavity_v.svg", cavity.v);
 }
 
 }  // namespace

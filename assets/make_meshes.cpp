@@ -5,6 +5,7 @@
 #include <string>
 
 #include "assets/sample_meshes.h"
+#include "assets/vase.h"
 #include "base/check.h"
 #include "mesh/mesh_file.h"
 
@@ -24,10 +25,11 @@ int make(const std::string& shape, long triangles, const std::string& file) {
                                                              {"dumbbell", samples::dumbbell},
                                                              {"torus", samples::torus},
                                                              {"figurine", samples::figurine},
-                                                             {"sheet", sheet}};
+                                                             {"sheet", sheet},
+                                                             {"vase", brisance::assets::vase}};
   const auto found = shapes.find(shape);
   if (found == shapes.end() || triangles < 100) {
-    std::fputs("make_meshes: usage: make_meshes sphere|dumbbell|torus|figurine|sheet TRIANGLES OUT.obj\n", stderr);
+    std::fputs("make_meshes: usage: make_meshes sphere|dumbbell|torus|figurine|sheet|vase TRIANGLES OUT.obj\n", stderr);
     return static_cast<int>(brisance::ExitCode::badScene);
   }
   brisance::writeObj(file, found->second(triangles));

@@ -71,8 +71,7 @@ def own_timings():
         return file.read().decode()
 
 
-timings = own_timings()
-spent = {name: float(mean) for name, mean in re.findall(r"\] (\w+)\S* \(([0-9.]+)s\)", timings)}
-cache = (spent.get("save", 0) + spent.get("load", 0)) / float(re.search(r"Total : ([0-9.]+)s", timings).group(1))
+shares = re.findall(r"\[ *([0-9.]+)%\] (?:save|load)\b", own_timings())
+cache = sum(map(float, shares)) / 100
 written = [name for name in os.listdir(os.path.join(folder, "data")) if name.startswith("fluid_data")]
-print("MANTAFLOW", len(written), f"{seconds:.3f}", f"{cache:.4f}")
+print("\nMANTAFLOW", len(written), f"{seconds:.3f}", f"{cache:.4f}")

@@ -74,7 +74,7 @@ for cells in ${sizes:-64 128}; do
   ours=$(echo "$(date +%s.%N) $start" | awk '{ print $1 - $2 }')
   written=$(grep -o '"write": *[0-9.e-]*' "$folder/facts.json" | head -1 | sed 's/.*: *//')
   theirs=$(blender --background --factory-startup --python "$here/mantaflow.py" -- "$cells" "$frames" "$folder/cache" \
-    "$time_scale" 2>"$folder/log" | grep '^MANTAFLOW') || { cat "$folder/log" >&2; exit 1; }
+    "$time_scale" 2>&1 | tee "$folder/log" | grep -o 'MANTAFLOW .*') || { cat "$folder/log" >&2; exit 1; }
   rm -rf "$folder/run" "$folder/cache"
   echo "$theirs" | awk -v cells="$cells" -v frames="$frames" -v ours="$ours" -v written="$written" '{
     solver = ours - written; theirs = $3 * (1 - $4)

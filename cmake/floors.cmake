@@ -24,8 +24,11 @@ brisance_floor(mesh USES base LIBRARIES Boost::headers Qhull::qhull_r nlohmann_j
 brisance_floor(fluid USES grid mesh)
 brisance_floor(particles USES grid mesh)
 # Nobody asks for errno or floating-point traps there: without them square roots and choices become vectors. No bit changes.
-set_source_files_properties(${CMAKE_SOURCE_DIR}/src/particles/particle_step.cpp PROPERTIES
-  COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
+foreach(source particles/particle_step fluid/advection fluid/diffusion fluid/donor_sweep fluid/ghost_rows fluid/pressure
+    fluid/semi_lagrangian fluid/temperature fluid/vorticity)
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/${source}.cpp PROPERTIES
+    COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
+endforeach()
 brisance_floor(rigid USES grid mesh)
 brisance_floor(fracture USES grid mesh LIBRARIES Eigen3::Eigen Boost::headers TBB::tbb TBB::tbbmalloc)
 brisance_floor(frame USES grid mesh LIBRARIES ${OPENVDB_LIBRARY} PkgConfig::IMATH TBB::tbb nlohmann_json::nlohmann_json)

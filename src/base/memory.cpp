@@ -11,4 +11,6 @@ void keepFreedMemory() {
   ::mallopt(M_TRIM_THRESHOLD, keptAtTop);
 }
 
+void releaseFreedMemory() { ::malloc_trim(0); }
+
 }  // namespace brisance

@@ -8,4 +8,8 @@ namespace brisance {
 /// The most memory ever in use stays what it was. Call it once, before other threads start.
 void keepFreedMemory();
 
+/// Gives back what was freed and kept. Each thread keeps its own: what one frees, another takes anew, and work that
+/// changes threads from frame to frame would in time hold its memory several times.
+void releaseFreedMemory();
+
 }  // namespace brisance

@@ -1,136 +1,128 @@
 #include "fluid/advection.h"
 
+#include "base/lane_sum.h"
 #include "base/parallel.h"
 #include "base/vector_path.h"
+#include "fluid/donor_cell.h"
+#include "fluid/semi_lagrangian.h"
 
 namespace brisance {
 
 namespace {
-/// One row of samples of a padded component: the sample itself and its strides.
-struct Row {
-  const float* at;
-  std::int64_t dy, dz;
+/// Rows to write to, of a grid or inside a padded one.
+struct RowsOut {
+  float* first;
+  std::int64_t row, plane;
+  explicit RowsOut(Grid3<float>& grid) : first(grid.values.data()), row(grid.stride(1)), plane(grid.stride(2)) {}
+  explicit RowsOut(PaddedGrid& grid)
+      : first(grid.row(0, 0)), row(grid.values.stride(1)), plane(grid.values.stride(2)) {}
+  float* at(int j, int k) const { return first + j * row + k * plane; }
 };
 
-Row rowOf(const PaddedGrid& grid, int j, int k) {
-  return {grid.row(j, k), grid.values.stride(1), grid.values.stride(2)};
-}
-
-/// The same row seen along another set of axes: `step[a]` is the distance to the next sample along axis a.
-struct Steps {
-  const float* at;
-  std::int64_t step[3];
-};
-Steps stepsOf(const Row& row) { return {row.at, {1, row.dy, row.dz}}; }
-
-struct RowTask {
-  int axis;
-  float dtOverH, upwind, viscous;  // viscous = nu dt / h^2
-};
-
-/// Legend: U the component along `axis` whose row is updated, W the component that carries it along another axis.
-/// The control volume of a face reaches from centre to centre of its two cells; its side faces carry the mean of W
-/// there.
-void advectRow(const RowTask& task, const Steps& U, const Steps (&W)[3], float* out, const float* open, int count) {
-  for (int i = 0; i < count; ++i) {
-    const float u = U.at[i];
-    float flux = 0, divergence = 0, laplacian = 0;
-    for (int b = 0; b < 3; ++b) {
-      const float lower = U.at[i - U.step[b]], upper = U.at[i + U.step[b]];
-      float carryLower, carryUpper;
-      if (b == task.axis) {
-        carryLower = 0.5f * (lower + u);
-        carryUpper = 0.5f * (u + upper);
-      } else {
-        const Steps& w = W[b];
-        const std::int64_t before = -w.step[task.axis];
-        carryLower = 0.5f * (w.at[i + before] + w.at[i]);
-        carryUpper = 0.5f * (w.at[i + before + w.step[b]] + w.at[i + w.step[b]]);
-      }
-      flux += donorFlux(carryUpper, u, upper, task.upwind) - donorFlux(carryLower, lower, u, task.upwind);
-      divergence += carryUpper - carryLower;
-      laplacian += (upper - u) - (u - lower);
-    }
-    const float moved = u - task.dtOverH * (flux - u * divergence) + task.viscous * laplacian;
-    out[i] = open[i] > 0 ? moved : u;
-  }
-}
-
-double donorWeight(const FluidSettings& settings) { return std::get<DonorCell>(settings.advection).upwindWeight; }
-
-void advectComponent(int axis, const FluidState& gas, const FluidSettings& settings, double dt,
-                     AdvectionScratch& scratch) {
-  const PaddedVelocity& padded = scratch.velocity;
-  Grid3<float>& out = scratch.newVelocity.component(axis);
-  const Grid3<float>& open = gas.solid.openShare.component(axis);
-  const double h = settings.cellSize;
-  const RowTask task{axis, static_cast<float>(dt / h), static_cast<float>(donorWeight(settings)),
-                     static_cast<float>(settings.viscosity * dt / (h * h))};
-  parallelFor(0, out.size.z, 2, [&](std::int64_t first, std::int64_t last) {
+/// Calls work(j, k) for every row, compiled for wide vectors.
+template <class Work>
+void forRows(const Vec3i& size, const Work& work) {
+  parallelFor(0, size.z, 1, [&](std::int64_t first, std::int64_t last) {
     for (int k = static_cast<int>(first); k < last; ++k)
-      for (int j = 0; j < out.size.y; ++j) {
-        const Steps U = stepsOf(rowOf(padded.component[axis], j, k));
-        const Steps W[3] = {stepsOf(rowOf(padded.component[0], j, k)), stepsOf(rowOf(padded.component[1], j, k)),
-                            stepsOf(rowOf(padded.component[2], j, k))};
-        const std::int64_t row = out.index(0, j, k);
-        runWide([&] { advectRow(task, U, W, out.values.data() + row, open.values.data() + row, out.size.x); });
-      }
+      runWide([&] {
+        for (int j = 0; j < size.y; ++j) work(j, k);
+      });
   });
 }
 
-/// Legend: s the scalar, u v w the face speeds of the row.
-struct ScalarRow {
-  const float *u, *v, *vUpper, *w, *wUpper;
-  Steps s;
-  const std::uint8_t* solid;
+/// What else accelerates a quantity while it is carried: nothing.
+struct NoPush {
+  auto row(int, int) const {
+    return [](std::int64_t) { return 0.0f; };
+  }
+};
+/// The pressure of the step before, on a velocity component: `share` dt / h times its difference.
+struct PressurePush {
+  const PaddedGrid& pressure;
+  int axis;
+  float dtOverH;
+  auto row(int j, int k) const {
+    const Row p = rowOf(pressure, j, k);
+    return [at = p.at, back = p.step[axis], c = dtOverH](std::int64_t i) { return c * (at[i] - at[i - back]); };
+  }
 };
 
-void advectScalarRow(const ScalarRow& row, float dtOverH, float upwind, float* out, int count) {
-  const Steps& s = row.s;
-  for (int i = 0; i < count; ++i) {
-    const float here = s.at[i];
-    const float uLower = row.u[i], uUpper = row.u[i + 1];
-    const float flux = (donorFlux(uUpper, here, s.at[i + 1], upwind) - donorFlux(uLower, s.at[i - 1], here, upwind)) +
-                       (donorFlux(row.vUpper[i], here, s.at[i + s.step[1]], upwind) -
-                        donorFlux(row.v[i], s.at[i - s.step[1]], here, upwind)) +
-                       (donorFlux(row.wUpper[i], here, s.at[i + s.step[2]], upwind) -
-                        donorFlux(row.w[i], s.at[i - s.step[2]], here, upwind));
-    const float divergence = (uUpper - uLower) + (row.vUpper[i] - row.v[i]) + (row.wUpper[i] - row.w[i]);
-    out[i] = row.solid[i] ? here : here - dtOverH * (flux - here * divergence);
-  }
+/// out = base - c (h u . grad) from - push, c = dt / h; what is closed keeps the base.
+template <class Flow, class Push>
+void donorStep(const Flow& flow, const PaddedGrid& base, const PaddedGrid& from, float c, float weight,
+               const Push& push, RowsOut out) {
+  const int count = flow.size().x;
+  forRows(flow.size(), [&](int j, int k) {
+    const auto carrier = flow.row(j, k);
+    const auto pushed = push.row(j, k);
+    const Row s = rowOf(from, j, k);
+    const float* before = base.row(j, k);
+    float* after = out.at(j, k);
+#pragma GCC ivdep
+    for (std::int64_t i = 0; i < count; ++i) {
+      const float moved = before[i] - (c * carrier.rate(s, i, weight) + pushed(i));
+      after[i] = carrier.closed(i) ? before[i] : moved;
+    }
+  });
 }
 
-ScalarRow scalarRow(const FluidState& gas, const PaddedGrid& padded, int j, int k) {
-  const auto at = [](const Grid3<float>& g, int jj, int kk) { return g.values.data() + g.index(0, jj, kk); };
-  const MacVelocity& m = gas.velocity;
-  return {at(m.u, j, k),
-          at(m.v, j, k),
-          at(m.v, j + 1, k),
-          at(m.w, j, k),
-          at(m.w, j, k + 1),
-          stepsOf(rowOf(padded, j, k)),
-          gas.solid.inside.values.data() + gas.solid.inside.index(0, j, k)};
+inline float lesser(float a, float b) { return a < b ? a : b; }
+inline float greater(float a, float b) { return a > b ? a : b; }
+/// Of a sample and its six neighbours.
+inline float leastAround(const Row& s, std::int64_t i) {
+  const float x = lesser(s.at[i - 1], s.at[i + 1]), y = lesser(s.at[i - s.step[1]], s.at[i + s.step[1]]),
+              z = lesser(s.at[i - s.step[2]], s.at[i + s.step[2]]);
+  return lesser(s.at[i], lesser(x, lesser(y, z)));
+}
+inline float mostAround(const Row& s, std::int64_t i) {
+  const float x = greater(s.at[i - 1], s.at[i + 1]), y = greater(s.at[i - s.step[1]], s.at[i + s.step[1]]),
+              z = greater(s.at[i - s.step[2]], s.at[i + s.step[2]]);
+  return greater(s.at[i], greater(x, greater(y, z)));
+}
+
+/// A step back from the predicted values misses the old ones by twice what the prediction is off: with s' predicted and
+/// s" reached again from it, new = s' + (s - s") / 2, where s" = s' + c (h u . grad, downwind) s'. A push that the
+/// prediction has had is taken off again.
+template <class Flow, class Push>
+void correctStep(const Flow& flow, const PaddedGrid& old, const PaddedGrid& predicted, float c, bool clamped,
+                 const Push& push, RowsOut out) {
+  const int count = flow.size().x;
+  constexpr float downwind = -1;
+  forRows(flow.size(), [&](int j, int k) {
+    const auto carrier = flow.row(j, k);
+    const auto pushed = push.row(j, k);
+    const Row s = rowOf(old, j, k), p = rowOf(predicted, j, k);
+    const float* before = old.row(j, k);
+    float* after = out.at(j, k);
+#pragma GCC ivdep
+    for (std::int64_t i = 0; i < count; ++i) {
+      const float free = 0.5f * ((before[i] + (p.at[i] + pushed(i))) - c * carrier.rate(p, i, downwind));
+      const float least = clamped ? leastAround(s, i) : free, most = clamped ? mostAround(s, i) : free;
+      after[i] = carrier.closed(i) ? before[i] : lesser(greater(free, least), most);
+    }
+  });
 }
 
 /// What created gas brings: sum of (s - ambient) div u, times h^2 for the caller's h.
-double createdContent(const Grid3<float>& scalar, const FluidState& gas, float ambient) {
-  return parallelSum(scalar.size.z, 1, [&](std::int64_t first, std::int64_t last) {
+double createdContent(const PaddedGrid& scalar, const ScalarFlow& flow, float ambient) {
+  const Vec3i size = flow.size();
+  return parallelSum(size.z, 1, [&](std::int64_t k, std::int64_t) {
     double sum = 0;
-    const MacVelocity& m = gas.velocity;
-    for (int k = static_cast<int>(first); k < last; ++k)
-      for (int j = 0; j < scalar.size.y; ++j)
-        for (int i = 0; i < scalar.size.x; ++i) {
-          if (gas.solid.inside(i, j, k)) continue;
-          const double divergence =
-              (m.u(i + 1, j, k) - m.u(i, j, k)) + (m.v(i, j + 1, k) - m.v(i, j, k)) + (m.w(i, j, k + 1) - m.w(i, j, k));
-          sum += (scalar(i, j, k) - ambient) * divergence;
-        }
+    runWide([&] {
+      for (int j = 0; j < size.y; ++j) {
+        const auto carrier = flow.row(j, static_cast<int>(k));
+        const float* s = scalar.row(j, static_cast<int>(k));
+        sum += laneSum(size.x, [&](std::int64_t i) {
+          return carrier.closed(i) ? 0.0f : (s[i] - ambient) * carrier.divergence(i);
+        });
+      }
+    });
     return sum;
   });
 }
 
 /// What leaves through the box's faces: sum of the outward flux of (s - ambient), times h^2 for the caller's h.
-double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, float ambient, float upwind) {
+double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, float ambient, float weight) {
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Grid3<float>& normal = velocity.component(axis);
@@ -143,41 +135,179 @@ double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, float 
           const float speed = normal.values[layer * normal.stride(axis) + p * normal.stride(b) + q * normal.stride(c)];
           const float* upper = padded.values.values.data() + (layer + 1) * step + (p + 1) * padded.values.stride(b) +
                                (q + 1) * padded.values.stride(c);
-          const double flux = donorFlux(speed, upper[-step] - ambient, upper[0] - ambient, upwind);
+          const double flux = donorFlux(speed, upper[-step] - ambient, upper[0] - ambient, weight);
           sum += side ? flux : -flux;
         }
     }
   }
   return sum;
 }
+
+/// A scalar on its way.
+struct ScalarTransport {
+  const FluidState& gas;
+  const FluidSettings& settings;
+  float ambient;
+  double dt;
+  AdvectionScratch& scratch;
+  Balance* balance;  ///< kept if there is one
+  ScalarFlow flow{gas};
+
+  float dtOverH() const { return static_cast<float>(dt / settings.cellSize); }
+  void fillGhosts(PaddedGrid& padded) const { fillScalarGhosts(padded, gas.velocity, settings.faces, ambient); }
+  /// `share` of the step carried these values, by differences of some weight.
+  void account(const PaddedGrid& values, float weight, double share) const {
+    if (!balance) return;
+    const double perSpeed = share * dt * settings.cellSize * settings.cellSize;
+    balance->in += perSpeed * createdContent(values, flow, ambient);
+    balance->out += perSpeed * outwardFlux(values, gas.velocity, ambient, weight);
+  }
+  /// stage = old - part of the step by the differences of `from`
+  void part(float share, const PaddedGrid& from, float weight, PaddedGrid& stage) const {
+    resizePadded(stage, scratch.newScalar);
+    donorStep(flow, scratch.scalar, from, share * dtOverH(), weight, NoPush{}, RowsOut(stage));
+    fillGhosts(stage);
+  }
+
+  void by(const DonorCell& scheme) const {
+    const float weight = static_cast<float>(scheme.upwindWeight);
+    const PaddedGrid* last = &scratch.scalar;
+    for (int left = donorStages(scheme, courantNumber(gas, dt)); left > 1; --left) {
+      PaddedGrid& stage = scratch.stage[left % 2].component[0];
+      part(1.0f / static_cast<float>(left), *last, weight, stage);
+      last = &stage;
+    }
+    donorStep(flow, scratch.scalar, *last, dtOverH(), weight, NoPush{}, RowsOut(scratch.newScalar));
+    account(*last, weight, 1);
+  }
+  void by(const MacCormack& scheme) const {
+    PaddedGrid& predicted = scratch.stage[0].component[0];
+    part(1, scratch.scalar, 1, predicted);
+    correctStep(flow, scratch.scalar, predicted, dtOverH(), scheme.clamped, NoPush{}, RowsOut(scratch.newScalar));
+    account(scratch.scalar, 1, 0.5);
+    account(predicted, -1, 0.5);
+  }
+  void by(const SemiLagrangian&) const {
+    scratch.velocity.fill(gas.velocity, settings);
+    traceBack(gas, scratch.velocity, {settings.faces}, dt, scratch.scalar, scratch.newScalar);
+    account(scratch.scalar, 1, 1);
+  }
+};
+
+void carry(Grid3<float>& scalar, const ScalarTransport& transport) {
+  AdvectionScratch& scratch = transport.scratch;
+  padScalar(scratch.scalar, scalar, transport.gas.velocity, transport.settings.faces, transport.ambient);
+  if (!(scratch.newScalar.size == scalar.size)) scratch.newScalar = scalar;
+  std::visit([&](const auto& scheme) { transport.by(scheme); }, transport.settings.advection);
+  std::swap(scalar.values, scratch.newScalar.values);
+}
+
+template <class Work>
+void forAxes(const Work& work) {
+  work(std::integral_constant<int, 0>{});
+  work(std::integral_constant<int, 1>{});
+  work(std::integral_constant<int, 2>{});
+}
+
+/// The velocity on its way. Between the passes of a scheme it is carried by itself as it is then, and made to obey the
+/// pressure of the step before: otherwise an error of first order in the time step remains that damps whirls.
+struct VelocityTransport {
+  const FluidState& gas;
+  const FluidSettings& settings;
+  double dt;
+  AdvectionScratch& scratch;
+
+  float dtOverH() const { return static_cast<float>(dt / settings.cellSize); }
+  void padPressure() const {
+    copyInside(scratch.scalar, gas.pressure);
+    fillPressureGhosts(scratch.scalar, settings.faces);
+  }
+  template <int axis>
+  SpeedFlow<axis> flow(const PaddedVelocity& carrier) const {
+    return {carrier, gas.solid.openShare.component(axis)};
+  }
+  /// stage = old - part of the step by the differences of `from`
+  void part(float share, const PaddedVelocity& from, float weight, PaddedVelocity& stage) const {
+    const float c = share * dtOverH();
+    forAxes([&](auto axis) {
+      PaddedGrid& to = stage.component[axis];
+      resizePadded(to, gas.velocity.component(axis));
+      donorStep(flow<axis>(from), scratch.velocity.component[axis], from.component[axis], c, weight,
+                PressurePush{scratch.scalar, axis, c}, RowsOut(to));
+      fillSpeedGhosts(to, axis, gas.velocity, settings);
+    });
+  }
+
+  void by(const DonorCell& scheme) const {
+    const float weight = static_cast<float>(scheme.upwindWeight);
+    const PaddedVelocity* last = &scratch.velocity;
+    const int stages = donorStages(scheme, courantNumber(gas, dt));
+    if (stages > 1) padPressure();
+    for (int left = stages; left > 1; --left) {
+      PaddedVelocity& stage = scratch.stage[left % 2];
+      part(1.0f / static_cast<float>(left), *last, weight, stage);
+      last = &stage;
+    }
+    forAxes([&](auto axis) {
+      donorStep(flow<axis>(*last), scratch.velocity.component[axis], last->component[axis], dtOverH(), weight, NoPush{},
+                RowsOut(scratch.newVelocity.component(axis)));
+    });
+  }
+  void by(const MacCormack& scheme) const {
+    padPressure();
+    part(1, scratch.velocity, 1, scratch.stage[0]);
+    forAxes([&](auto axis) {
+      correctStep(flow<axis>(scratch.stage[0]), scratch.velocity.component[axis], scratch.stage[0].component[axis],
+                  dtOverH(), scheme.clamped, PressurePush{scratch.scalar, axis, dtOverH()},
+                  RowsOut(scratch.newVelocity.component(axis)));
+    });
+  }
+  void by(const SemiLagrangian&) const {
+    for (int axis = 0; axis < 3; ++axis)
+      traceBack(gas, scratch.velocity, {settings.faces, axis}, dt, scratch.velocity.component[axis],
+                scratch.newVelocity.component(axis));
+  }
+};
 }  // namespace
 
 void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, AdvectionScratch& scratch) {
-  scratch.velocity.fill(gas.velocity, settings.faces, settings.wind);
+  scratch.velocity.fill(gas.velocity, settings);
   if (scratch.newVelocity.u.count() != gas.velocity.u.count()) scratch.newVelocity = gas.velocity;
-  for (int axis = 0; axis < 3; ++axis) advectComponent(axis, gas, settings, dt, scratch);
+  const VelocityTransport transport{gas, settings, dt, scratch};
+  std::visit([&](const auto& scheme) { transport.by(scheme); }, settings.advection);
   std::swap(gas.velocity, scratch.newVelocity);
+}
+
+void carryScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient, double dt,
+                 AdvectionScratch& scratch) {
+  carry(scalar, {gas, settings, ambient, dt, scratch, nullptr});
 }
 
 Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient,
                      double dt, AdvectionScratch& scratch) {
-  padScalar(scratch.scalar, scalar, gas.velocity, settings.faces, ambient);
-  scratch.newScalar = scalar;
-  const float upwind = static_cast<float>(donorWeight(settings)), dtOverH = static_cast<float>(dt / settings.cellSize);
-  parallelFor(0, scalar.size.z, 2, [&](std::int64_t first, std::int64_t last) {
-    for (int k = static_cast<int>(first); k < last; ++k)
-      for (int j = 0; j < scalar.size.y; ++j) {
-        const ScalarRow row = scalarRow(gas, scratch.scalar, j, k);
-        float* out = scratch.newScalar.values.data() + scalar.index(0, j, k);
-        runWide([&] { advectScalarRow(row, dtOverH, upwind, out, scalar.size.x); });
-      }
-  });
-  const double area = settings.cellSize * settings.cellSize;
   Balance balance;
-  balance.in = dt * area * createdContent(scalar, gas, ambient);
-  balance.out = dt * area * outwardFlux(scratch.scalar, gas.velocity, ambient, upwind);
-  std::swap(scalar, scratch.newScalar);
+  carry(scalar, {gas, settings, ambient, dt, scratch, &balance});
   return balance;
+}
+
+int donorStages(const DonorCell& scheme, double courant) {
+  constexpr double enoughForTwo = 0.2;
+  if (scheme.upwindWeight >= 1 || courant <= scheme.upwindWeight) return 1;
+  return scheme.upwindWeight >= enoughForTwo ? 2 : 3;
+}
+
+double largestMagnitude(const Grid3<float>& grid) {
+  return parallelMax(grid.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
+    float largest = 0;
+    runWide([&] { largest = laneMax(last - first, [&](std::int64_t n) { return grid.values[first + n]; }); });
+    return static_cast<double>(largest);
+  });
+}
+
+double courantNumber(const FluidState& gas, double dt) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) sum += largestMagnitude(gas.velocity.component(axis));
+  return dt * sum / gas.pressure.cellSize;
 }
 
 }  // namespace brisance

@@ -8,37 +8,34 @@
 
 namespace brisance {
 
-/// Flux of a quantity between two samples, carried at `speed` from left to right where positive:
-/// Griebel et al. 1998, eq. 3.19.
-inline float donorFlux(float speed, float left, float right, float upwindWeight) {
-  return 0.5f * (speed * (left + right) - upwindWeight * std::abs(speed) * (right - left));
-}
-
-/// At the two sides of a control volume along one axis.
-struct Sides {
-  float lower, upper;
-};
-/// What the fluxes through both sides take from a sample, less the sample times what they carry in all: h (u ds/dx) of
-/// the same scheme. `difference`: of the sample and its neighbours, upper less lower.
-inline float donorDifference(Sides speed, Sides difference, float upwindWeight) {
-  return 0.5f * ((speed.upper - upwindWeight * std::abs(speed.upper)) * difference.upper +
-                 (speed.lower + upwindWeight * std::abs(speed.lower)) * difference.lower);
-}
-
 /// Scratch of one transport step.
 struct AdvectionScratch {
   PaddedVelocity velocity;
   PaddedGrid scalar;
+  PaddedVelocity stage[2];  ///< between the passes of a scheme
   MacVelocity newVelocity;
   Grid3<float> newScalar;
 };
 
-/// Transports all velocity components over dt [s], and diffuses them by the viscosity; closed faces keep their speed.
+/// Transports all velocity components over dt [s]; closed faces keep their speed.
 void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, AdvectionScratch& scratch);
 
-/// Transports a scalar over dt [s]; what comes in through open faces is `ambient`. Returns the balance of (scalar -
-/// ambient) over the box, in scalar units x m3: `in` by created gas, `out` through open faces.
+/// Transports a scalar over dt [s]; what comes in through open faces is `ambient`.
+void carryScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient, double dt,
+                 AdvectionScratch& scratch);
+
+/// The same, and the balance of (scalar - ambient) over the box, in scalar units x m3: `in` by created gas, `out`
+/// through open faces. It closes for donor_cell, and for maccormack where that clamps nothing.
 Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient,
                      double dt, AdvectionScratch& scratch);
+
+/// Stages of Runge and Kutta for differences of some weight w at Courant number C. The spectrum of their operator lies
+/// in ellipses, C (-w + w cos t + i sin t). One stage, forward Euler, is stable for all of those with C <= w; two up to
+/// C = 1.25 where w >= 0.2; three up to C = 1.25 for any w.
+int donorStages(const DonorCell& scheme, double courant);
+
+double largestMagnitude(const Grid3<float>& grid);
+/// dt sum(max |u_i|) / h of the gas as it is.
+double courantNumber(const FluidState& gas, double dt);
 
 }  // namespace brisance

@@ -51,8 +51,7 @@ void addClaimed(const BodyFaceSearch& search, const std::vector<Claim>& claims, 
     for (auto one = claim; one != next; ++one) sum += one->weight;
     if (closed > 0 && sum > 0 && !isBoxWall(search.settings, claim->axis, claim->face))
       for (auto one = claim; one != next; ++one)
-        if (one->weight > 0)
-          out.push_back({one->axis, one->body, one->face, one->index, closed * (one->weight / sum)});
+        if (one->weight > 0) out.push_back({one->axis, one->body, one->face, one->index, closed * (one->weight / sum)});
     claim = next;
   }
 }

@@ -41,10 +41,19 @@ class HeatRow {
   };
   /// `room` holds as many floats.
   Sums operator()(float* T, const float* H, const std::uint8_t* inside, int count, float* room) const {
-    for (int i = 0; i < count; ++i) room[i] = inside[i] ? T[i] : heated(T[i], H[i]);
-    for (int i = 0; i < count; ++i) T[i] = inside[i] ? T[i] : cooled(room[i]);
-    return {dt_ * laneSum(count, [&](std::int64_t i) { return inside[i] ? 0 : H[i]; }),
-            laneSum(count, [&](std::int64_t i) { return room[i] - T[i]; })};
+    const HeatRow row = *this;  // which no store changes
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+      const float before = T[i], hot = row.heated(before, H[i]), warm = row.cooled(hot);
+      room[i] = inside[i] ? 0 : hot - warm;
+      T[i] = inside[i] ? before : warm;
+    }
+    return {dt_ * laneSum(count,
+                          [&](std::int64_t i) {
+                            const float rate = H[i];
+                            return inside[i] ? 0 : rate;
+                          }),
+            laneSum(count, [&](std::int64_t i) { return room[i]; })};
   }
 
  private:

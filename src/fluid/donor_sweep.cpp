@@ -8,6 +8,7 @@
 #include "base/vector_path.h"
 #include "fluid/advection.h"
 #include "fluid/cooling.h"
+#include "fluid/donor_cell.h"
 #include "fluid/forces.h"
 #include "fluid/ghost_rows.h"
 
@@ -159,8 +160,10 @@ class ScalarSweep {
     sums.heated += heat.heated;
     sums.radiated += heat.radiated;
     sums.gained += laneSum(n, [&](std::int64_t i) { return T[i] - s.here[i]; });  // 0 in solids
-    sums.created +=
-        laneSum(n, [&](std::int64_t i) { return inside[i] ? 0 : (s.here[i] - ambient_) * sides.divergence(i); });
+    sums.created += laneSum(n, [&](std::int64_t i) {
+      const float brought = (s.here[i] - ambient_) * sides.divergence(i);
+      return inside[i] ? 0 : brought;
+    });
   }
 
   /// Through those of the box's faces that the row lies at.
@@ -195,8 +198,9 @@ void sizeAs(Grid3<T>& grid, const Grid3<T>& model) {
 }
 }  // namespace
 
-bool sweepsSuffice(const FluidSettings& settings) {
-  return std::holds_alternative<DonorCell>(settings.advection) && settings.viscosity == 0 && settings.conductivity == 0;
+bool sweepsSuffice(const FluidSettings& settings, double courant) {
+  const auto* donor = std::get_if<DonorCell>(&settings.advection);
+  return donor && donorStages(*donor, courant) == 1 && settings.viscosity == 0 && settings.conductivity == 0;
 }
 
 Balance sweepScalars(FluidState& gas, const FluidSettings& settings, const Burning& burning, double dt,

@@ -14,8 +14,8 @@ struct SweepScratch {
   Grid3<float> temperature, soot, flame;
 };
 
-/// Whether they do all that the settings ask for.
-bool sweepsSuffice(const FluidSettings& settings);
+/// Whether they do all that the settings ask for in a step of some Courant number.
+bool sweepsSuffice(const FluidSettings& settings, double courant);
 
 /// What a step of dt [s] adds to soot and flame.
 struct Burning {

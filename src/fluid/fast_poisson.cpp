@@ -155,13 +155,16 @@ class SurfaceIteration {
   SurfaceIteration(const SolidSurface& surface, const CellField& work, SurfaceVectors& v)
       : surface_(surface), work_(work), v_(v) {}
 
-  /// From work = M^-1 b: r = b - A x is what x's gradient carries through closed faces. Returns |r|^2.
+  /// From work = M^-1 b: r = b - A x is what x's gradient carries through closed faces, less what bodies give way.
+  /// Returns |r|^2.
   double start() {
-    return surfaceSum(surface_, [&](std::int64_t n) {
+    surfaceSum(surface_, [&](std::int64_t n) {
       v_.correction[n] = v_.direction[n] = v_.source[n] = v_.product[n] = 0;
-      const double r = v_.residual[n] = missingFlux(surface_, work_, n);
-      return r * r;
+      v_.residual[n] = missingFlux(surface_, work_, n);
+      return 0;
     });
+    addGivingWay(-1, v_.residual);
+    return surfaceSum(surface_, [&](std::int64_t n) { return v_.residual[n] * v_.residual[n]; });
   }
   /// From work = M^-1 r: one step of conjugate gradients. Returns |r|^2.
   double step() {
@@ -170,6 +173,7 @@ class SurfaceIteration {
       v_.image[n] = v_.residual[n] - missingFlux(surface_, work_, n);  // A z
       return v_.residual[n] * z;
     });
+    addGivingWay(1, v_.image);
     const double beta = lastRz_ > 0 ? rz / lastRz_ : 0;
     lastRz_ = rz;
     const double pq = surfaceSum(surface_, [&](std::int64_t n) {
@@ -187,6 +191,14 @@ class SurfaceIteration {
   }
 
  private:
+  /// out += sign times what the bodies that work pushes make of the operator
+  void addGivingWay(double sign, std::vector<double>& out) {
+    const BodyPush& push = surface_.push;
+    if (push.empty()) return;
+    const auto changes = push.response([&](const BodyContact& c) { return work_.values[c.cell]; });
+    push.addOutflow(changes, [&](const BodyContact& c, double value) { out[c.number] += sign * value; });
+  }
+
   const SolidSurface& surface_;
   const CellField& work_;
   SurfaceVectors& v_;
@@ -217,13 +229,22 @@ SolidSurface findSurface(const SolidStamp& solid, const BoxPoisson& box) {
   return surface;
 }
 
+void addPush(BodyPush push, SolidSurface& surface) {
+  for (BodyContact& contact : push.contacts()) {
+    const auto cell = std::lower_bound(surface.cell.begin(), surface.cell.end(), contact.cell);
+    CHECK(cell != surface.cell.end() && *cell == contact.cell, "cell {} of {}", contact.cell, surface.cell.size());
+    contact.number = static_cast<std::int32_t>(cell - surface.cell.begin());
+  }
+  surface.push = std::move(push);
+}
+
 void SurfaceVectors::resize(std::size_t count) {
   for (auto* vector : {&residual, &source, &direction, &product, &correction, &preconditioned, &image})
     vector->resize(count);
 }
 
-PressureReport solveFastPoisson(const BoxPoisson& box, const SolidSurface& surface, double tolerance,
-                                int maxIterations, CellField& field, CellField& work, SurfaceVectors& vectors) {
+PressureReport solveFastPoisson(const BoxPoisson& box, const SolidSurface& surface, double tolerance, int maxIterations,
+                                CellField& field, CellField& work, SurfaceVectors& vectors) {
   PressureReport report;
   if (surface.empty()) {
     box.solve(field);

@@ -6,6 +6,7 @@
 #include "base/lane_sum.h"
 #include "base/parallel.h"
 #include "base/vector_path.h"
+#include "fluid/diffusion.h"
 #include "fluid/forces.h"
 #include "fluid/moving_solids.h"
 #include "fluid/temperature.h"
@@ -14,14 +15,6 @@
 namespace brisance {
 
 namespace {
-double largestMagnitude(const Grid3<float>& grid) {
-  return parallelMax(grid.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
-    float largest = 0;
-    runWide([&] { largest = laneMax(last - first, [&](std::int64_t n) { return grid.values[first + n]; }); });
-    return static_cast<double>(largest);
-  });
-}
-
 /// Whether a value is infinite or not a number.
 bool anyNotFinite(const Grid3<float>& grid) {
   constexpr std::uint32_t exponent = 0x7f800000;
@@ -50,10 +43,11 @@ void addBurnt(FluidState& gas, const Burning& burning, double dt) {
 /// Heat carried, released, cooled: the balance of the whole step.
 Balance stepTemperature(FluidState& gas, const FluidSettings& s, double dt, FluidScratch& scratch) {
   const double before = heatContent(gas, s);
-  Balance heat = advectScalar(gas.temperature, gas, s, static_cast<float>(s.ambientTemperature), dt, scratch.advection);
+  const float ambient = static_cast<float>(s.ambientTemperature);
+  Balance heat = advectScalar(gas.temperature, gas, s, ambient, dt, scratch.advection);
   heat.in *= s.heatCapacity;
   heat.out *= s.heatCapacity;
-  heat += heatAndCool(gas, s, dt, scratch.temperature);
+  heat += heatAndCool(gas, s, dt);
   heat.gained = heatContent(gas, s) - before;
   return heat;
 }
@@ -62,14 +56,15 @@ Balance stepTemperature(FluidState& gas, const FluidSettings& s, double dt, Flui
 Balance moveScalars(FluidState& gas, const FluidSettings& settings, const Burning& burning, double dt,
                     FluidScratch& scratch) {
   const Balance heat = stepTemperature(gas, settings, dt, scratch);
-  advectScalar(gas.soot, gas, settings, 0, dt, scratch.advection);
-  advectScalar(gas.flame, gas, settings, 0, dt, scratch.advection);
+  carryScalar(gas.soot, gas, settings, 0, dt, scratch.advection);
+  carryScalar(gas.flame, gas, settings, 0, dt, scratch.advection);
   addBurnt(gas, burning, dt);
   return heat;
 }
 
 void moveVelocity(FluidState& gas, const FluidSettings& settings, double dt, FluidScratch& scratch) {
   advectVelocity(gas, settings, dt, scratch.advection);
+  if (settings.viscosity > 0) diffuseVelocity(gas, settings, dt);
   addForces(gas, settings, dt);
 }
 }  // namespace
@@ -79,7 +74,7 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
   FluidReport report;
   report.courant = courantNumber(gas, dt);
   const Burning burning{sootPerMass, settings.flameLifetime};
-  const bool sweeps = sweepsSuffice(settings);
+  const bool sweeps = sweepsSuffice(settings, report.courant);
   report.heat = sweeps ? sweepScalars(gas, settings, burning, dt, scratch.sweep)
                        : moveScalars(gas, settings, burning, dt, scratch);
   takeGasVelocity(gas);
@@ -88,6 +83,7 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
   else
     moveVelocity(gas, settings, dt, scratch);
   confineVorticity(gas, settings, dt, scratch.sweep.velocity);
+  stir(gas, settings, dt);
   takeMeanVelocity(gas);
   report.pressure = project(gas, settings, dt, scratch.pressure);
   const Continuity continuity = continuityOf(gas);
@@ -97,12 +93,6 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
   return report;
 }
 
-double courantNumber(const FluidState& gas, double dt) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) sum += largestMagnitude(gas.velocity.component(axis));
-  return dt * sum / gas.pressure.cellSize;
-}
-
 double longestStep(const FluidState& gas, const FluidSettings& s, double largestSource) {
   const double h = s.cellSize;
   double inverse = courantNumber(gas, 1) / s.courant;
@@ -110,15 +100,17 @@ double longestStep(const FluidState& gas, const FluidSettings& s, double largest
   const double hottest = largestMagnitude(gas.temperature) - s.ambientTemperature;
   const double acceleration = length(s.force) + std::abs(s.buoyancy) * std::max(0.0, hottest);
   inverse = std::max(inverse, std::sqrt(acceleration / (h * s.courant)));
-  const double diffusion = std::max(s.viscosity, s.conductivity);
-  inverse = std::max(inverse, 6 * diffusion / (h * h));
   return inverse > 0 ? 1 / inverse : HUGE_VAL;
 }
 
 std::string findNotFinite(const FluidState& gas) {
-  const std::pair<const char*, const Grid3<float>*> grids[] = {
-      {"velocity u", &gas.velocity.u}, {"velocity v", &gas.velocity.v},   {"velocity w", &gas.velocity.w},
-      {"pressure", &gas.pressure},     {"temperature", &gas.temperature}, {"soot", &gas.soot}};
+  const std::pair<const char*, const Grid3<float>*> grids[] = {{"velocity u", &gas.velocity.u},
+                                                               {"velocity v", &gas.velocity.v},
+                                                               {"velocity w", &gas.velocity.w},
+                                                               {"pressure", &gas.pressure},
+                                                               {"temperature", &gas.temperature},
+                                                               {"soot", &gas.soot},
+                                                               {"flame", &gas.flame}};
   for (const auto& [name, grid] : grids) {
     if (!anyNotFinite(*grid)) continue;
     for (std::int64_t n = 0; n < grid->count(); ++n)

@@ -1,4 +1,4 @@
-// One step of the gas: burn (done by the caller into heatRate, divergence, burnRate); addForces; advect; diffuse;
+// One step of the gas: burn (done by the caller into heatRate, divergence, burnRate); advect; diffuse; addForces;
 // project.
 #pragma once
 
@@ -13,7 +13,6 @@ struct FluidScratch {
   AdvectionScratch advection;
   SweepScratch sweep;
   PressureScratch pressure;
-  Grid3<float> temperature;
 };
 
 /// What one step did.
@@ -29,11 +28,8 @@ struct FluidReport {
 FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double sootPerMass, double dt,
                       FluidScratch& scratch);
 
-/// dt sum(max |u_i|) / h of the gas as it is.
-double courantNumber(const FluidState& gas, double dt);
-
 /// The longest stable step [s] for the gas as it moves now when its source may reach `largestSource` [1/s]: Courant
-/// number, expansion dt <= 6 C / phi, acceleration, viscosity and conduction.
+/// number, expansion dt <= 6 C / phi, acceleration. Viscosity and conduction set no limit.
 double longestStep(const FluidState& gas, const FluidSettings& settings, double largestSource);
 
 /// The first value that is not a finite number, as "temperature at cell (i, j, k)"; empty when all are.

@@ -18,4 +18,7 @@ struct Lift {
   float perKelvin, ambient;    ///< [m/(s K)], [K]
 };
 
+/// Brings the gas inside each stirring cylinder towards the speed of a turning solid.
+void stir(FluidState& gas, const FluidSettings& settings, double dt);
+
 }  // namespace brisance

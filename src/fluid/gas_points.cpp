@@ -47,11 +47,11 @@ bool meanOfSeen(const GasPointSearch& search, const std::vector<Sight>& sights, 
     sum += place;
     ++count;
   };
-  constexpr double shallow = 1e-6;  // of a cell
+  constexpr double shallow = 1e-6, out = 0.4;  // of a cell
   for (const Sight& sight : sights)
     if (sight.depth > shallow) add(middleOf(sight, centre));
   for (int octant = 0; octant < 8; ++octant) {
-    const Vec3d place = centre + Vec3d(octant & 1 ? .25 : -.25, octant & 2 ? .25 : -.25, octant & 4 ? .25 : -.25);
+    const Vec3d place = centre + Vec3d(octant & 1 ? out : -out, octant & 2 ? out : -out, octant & 4 ? out : -out);
     if (isSeen(search, sights, cell, place)) add(place);
   }
   if (count == 0) return false;

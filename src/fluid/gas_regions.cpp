@@ -108,10 +108,9 @@ class RegionSearch {
         const bool aroundZ = k == 0 && faces_[4] == FaceKind::periodic;
         if (j > 0 || aroundY) joinRows(rowNumber(aroundY ? n_.y - 1 : j - 1, k), row, &open.v(0, j, k), sets);
         if (k > 0 || aroundZ) joinRows(rowNumber(j, aroundZ ? n_.z - 1 : k - 1), row, &open.w(0, j, k), sets);
-        const bool both = first_[row] < first_[row + 1] && runs_[first_[row]].first == 0 &&
-                          runs_[first_[row + 1] - 1].end == n_.x;
-        if (both && faces_[0] == FaceKind::periodic && open.u(0, j, k) > 0)
-          sets.join(first_[row], first_[row + 1] - 1);
+        const bool both =
+            first_[row] < first_[row + 1] && runs_[first_[row]].first == 0 && runs_[first_[row + 1] - 1].end == n_.x;
+        if (both && faces_[0] == FaceKind::periodic && open.u(0, j, k) > 0) sets.join(first_[row], first_[row + 1] - 1);
       }
   }
 

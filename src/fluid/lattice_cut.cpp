@@ -23,9 +23,7 @@ Vec3i placeOf(int axis, int a, int p, int q) {
   return place;
 }
 
-bool before(const Vec3i& a, const Vec3i& b) {
-  return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
-}
+bool before(const Vec3i& a, const Vec3i& b) { return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x; }
 
 std::vector<Corners> trianglesInCells(const LatticeBox& box, const MovingSolid& solid) {
   std::vector<Vec3d> places;
@@ -38,8 +36,12 @@ std::vector<Corners> trianglesInCells(const LatticeBox& box, const MovingSolid& 
 /// Whole squares that a body may cover, in the box.
 SquareWindow windowOf(const LatticeBox& box, const Box3& bounds, int axis) {
   const Across across(axis);
-  const auto lower = [&](int b) { return static_cast<int>(std::clamp(std::floor(bounds.lower[b]), 0.0, box.cells[b] + 0.0)); };
-  const auto upper = [&](int b) { return static_cast<int>(std::clamp(std::ceil(bounds.upper[b]), 0.0, box.cells[b] + 0.0)); };
+  const auto lower = [&](int b) {
+    return static_cast<int>(std::clamp(std::floor(bounds.lower[b]), 0.0, box.cells[b] + 0.0));
+  };
+  const auto upper = [&](int b) {
+    return static_cast<int>(std::clamp(std::ceil(bounds.upper[b]), 0.0, box.cells[b] + 0.0));
+  };
   return {lower(across.p), upper(across.p), lower(across.q), upper(across.q)};
 }
 
@@ -155,8 +157,7 @@ void markInside(const LatticeBox& box, int axis, const std::vector<Crossing>& cr
     }
     const int from = static_cast<int>(std::max(0.0, std::ceil(crossings[n].place - 0.5)));
     const int to = static_cast<int>(std::min(box.cells[axis] - 1.0, std::floor(crossings[n + 1].place - 0.5)));
-    for (int a = from; a <= to; ++a)
-      cut.insideCentres.push_back(placeOf(axis, a, crossings[n].p, crossings[n].q));
+    for (int a = from; a <= to; ++a) cut.insideCentres.push_back(placeOf(axis, a, crossings[n].p, crossings[n].q));
     n += 2;
   }
 }

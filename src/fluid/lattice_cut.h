@@ -32,8 +32,8 @@ struct LatticeBox {
 using Corners = std::array<Vec3d, 3>;
 
 struct FaceCut {
-  Vec3i face;          ///< face[axis] counts faces, the others cells
-  double covered = 0;  ///< share of the face that lies in the body
+  Vec3i face;            ///< face[axis] counts faces, the others cells
+  double covered = 0;    ///< share of the face that lies in the body
   bool crossed = false;  ///< the segment between the centres of its two cells meets the body's surface
 };
 

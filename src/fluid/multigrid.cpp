@@ -270,8 +270,20 @@ double applyLevel(const MultigridLevel& level, const CellField& direction, CellF
 }
 }  // namespace detail
 
-Multigrid::Multigrid(const SolidStamp& solid, const Faces& faces)
-    : levels_(detail::makeLevels(solid, faces)), direction_(layout()), product_(layout()) {}
+Multigrid::Multigrid(const SolidStamp& solid, const Faces& faces, BodyPush push)
+    : levels_(detail::makeLevels(solid, faces)), direction_(layout()), product_(layout()), push_(std::move(push)) {}
+
+/// product = A direction; returns direction . product
+double Multigrid::applyOperator() {
+  double pq = detail::applyLevel(levels_.front(), direction_, product_);
+  if (push_.empty()) return pq;
+  const auto changes = push_.response([&](const BodyContact& c) { return direction_.values[c.cell]; });
+  push_.addOutflow(changes, [&](const BodyContact& c, double value) {
+    product_.values[c.cell] += static_cast<float>(value);
+    pq += direction_.values[c.cell] * value;
+  });
+  return pq;
+}
 
 /// One V-cycle from zero, symmetric: what is relaxed before the coarse correction is relaxed after it in reverse order.
 void Multigrid::cycle(std::size_t number) {
@@ -305,7 +317,7 @@ PressureReport Multigrid::solve(CellField& field, double tolerance, int maxItera
     const double rz = dot(residual, preconditioned);
     turnDirection(preconditioned, static_cast<float>(lastRz > 0 ? rz / lastRz : 0), direction_);
     lastRz = rz;
-    const double pq = detail::applyLevel(levels_.front(), direction_, product_);
+    const double pq = applyOperator();
     squared = advance(static_cast<float>(pq > 0 ? rz / pq : 0), direction_, product_, field, residual);
     ++report.iterations;
   }

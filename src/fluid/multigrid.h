@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/report.h"
+#include "fluid/body_push.h"
 #include "fluid/cell_field.h"
 #include "fluid/fluid_state.h"
 
@@ -32,8 +33,8 @@ struct MultigridLevel {
 
 class Multigrid {
  public:
-  /// No face of the box may be periodic.
-  Multigrid(const SolidStamp& solid, const Faces& faces);
+  /// No face of the box may be periodic. `push` takes the bodies that gas pushes into the operator.
+  Multigrid(const SolidStamp& solid, const Faces& faces, BodyPush push = {});
 
   const CellLayout& layout() const { return levels_.front().x.layout; }
   /// Replaces b (zero in solids, of no net sum in a sealed pocket) by x with a residual of `tolerance` |b|.
@@ -41,9 +42,11 @@ class Multigrid {
 
  private:
   void cycle(std::size_t level);
+  double applyOperator();
 
   std::vector<MultigridLevel> levels_;
   CellField direction_, product_;
+  BodyPush push_;
 };
 
 namespace detail {

@@ -7,26 +7,17 @@
 namespace brisance {
 
 namespace {
-void copyInside(PaddedGrid& padded, const Grid3<float>& source) {
-  const Vec3i size{source.size.x + 2, source.size.y + 2, source.size.z + 2};
-  if (!(padded.values.size == size))
-    padded.values = Grid3<float>(size, source.origin - Vec3d(1, 1, 1) * source.cellSize, source.cellSize);
-  parallelFor(0, source.size.z, 4, [&](std::int64_t first, std::int64_t last) {
-    for (int k = static_cast<int>(first); k < last; ++k)
-      for (int j = 0; j < source.size.y; ++j)
-        std::copy_n(source.values.data() + source.index(0, j, k), source.size.x, &padded.values(1, j + 1, k + 1));
-  });
-}
-
-/// Calls at(ghost, inner, a, b) for each sample of one face's ghost layer; (a, b) number the inner samples of the face
-/// along the two other axes, the lower axis first.
+/// Calls at(ghost, inner, a, b) for each sample of one face's ghost layer; (a, b) number the samples of the face along
+/// the two other axes, the lower axis first. The ghosts of lower axes count as inner samples, -1 and the last but one:
+/// so that edges and corners have values too.
 template <class At>
 void forGhosts(Grid3<float>& padded, int face, const At& at) {
   const int axis = face / 2, b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
   const int layer = face % 2 ? padded.size[axis] - 1 : 0;
   const std::int64_t inward = face % 2 ? -padded.stride(axis) : padded.stride(axis);
-  for (int q = 1; q < padded.size[c] - 1; ++q)
-    for (int p = 1; p < padded.size[b] - 1; ++p) {
+  const int edgeB = b < axis ? 0 : 1, edgeC = c < axis ? 0 : 1;
+  for (int q = edgeC; q < padded.size[c] - edgeC; ++q)
+    for (int p = edgeB; p < padded.size[b] - edgeB; ++p) {
       const std::int64_t ghost = layer * padded.stride(axis) + p * padded.stride(b) + q * padded.stride(c);
       at(padded.values[ghost], padded.values[ghost + inward], p - 1, q - 1);
     }
@@ -68,37 +59,77 @@ class Inflow {
 };
 }  // namespace
 
-void PaddedVelocity::fill(const MacVelocity& velocity, const Faces& faces, const Vec3d& wind) {
+void resizePadded(PaddedGrid& padded, const Grid3<float>& source) {
+  const Vec3i size{source.size.x + 2, source.size.y + 2, source.size.z + 2};
+  if (!(padded.values.size == size))
+    padded.values = Grid3<float>(size, source.origin - Vec3d(1, 1, 1) * source.cellSize, source.cellSize);
+}
+
+void copyInside(PaddedGrid& padded, const Grid3<float>& source) {
+  resizePadded(padded, source);
+  parallelFor(0, source.size.z, 4, [&](std::int64_t first, std::int64_t last) {
+    for (int k = static_cast<int>(first); k < last; ++k)
+      for (int j = 0; j < source.size.y; ++j)
+        std::copy_n(source.values.data() + source.index(0, j, k), source.size.x, padded.row(j, k));
+  });
+}
+
+void fillSpeedGhosts(PaddedGrid& padded, int axis, const MacVelocity& velocity, const FluidSettings& settings) {
+  for (int face = 0; face < 6; ++face) {
+    const FaceKind kind = settings.faces[face];
+    if (kind == FaceKind::periodic) {
+      wrap(padded.values, face, face / 2 == axis);
+    } else if (kind == FaceKind::open) {
+      const Inflow inflow(velocity, face, axis);
+      const float outer = static_cast<float>(settings.wind[axis]);
+      forGhosts(padded.values, face,
+                [&](float& ghost, float inner, int p, int q) { ghost = inflow.at(p, q) ? outer : inner; });
+    } else if (face / 2 != axis && kind == FaceKind::noSlip) {
+      const float twice = static_cast<float>(2 * settings.wallVelocity[face][axis]);
+      forGhosts(padded.values, face, [&](float& ghost, float inner, int, int) { ghost = twice - inner; });
+    } else {
+      forGhosts(padded.values, face, [&](float& ghost, float inner, int, int) { ghost = inner; });
+    }
+  }
+}
+
+void fillScalarGhosts(PaddedGrid& padded, const MacVelocity& velocity, const Faces& faces, float ambient) {
+  for (int face = 0; face < 6; ++face) {
+    if (faces[face] == FaceKind::periodic) {
+      wrap(padded.values, face, false);
+      continue;
+    }
+    if (faces[face] == FaceKind::open) {
+      const Inflow inflow(velocity, face);
+      forGhosts(padded.values, face,
+                [&](float& ghost, float inner, int p, int q) { ghost = inflow.at(p, q) ? ambient : inner; });
+    } else {
+      forGhosts(padded.values, face, [&](float& ghost, float inner, int, int) { ghost = inner; });
+    }
+  }
+}
+
+void fillPressureGhosts(PaddedGrid& padded, const Faces& faces) {
+  for (int face = 0; face < 6; ++face) {
+    const float factor = faces[face] == FaceKind::open ? -1.0f : 1.0f;
+    if (faces[face] == FaceKind::periodic)
+      wrap(padded.values, face, false);
+    else
+      forGhosts(padded.values, face, [&](float& ghost, float inner, int, int) { ghost = factor * inner; });
+  }
+}
+
+void PaddedVelocity::fill(const MacVelocity& velocity, const FluidSettings& settings) {
   for (int axis = 0; axis < 3; ++axis) {
     copyInside(component[axis], velocity.component(axis));
-    for (int face = 0; face < 6; ++face) {
-      if (faces[face] == FaceKind::periodic) {
-        wrap(component[axis].values, face, face / 2 == axis);
-      } else if (faces[face] == FaceKind::open) {
-        const Inflow inflow(velocity, face, axis);
-        const float outer = static_cast<float>(wind[axis]);
-        forGhosts(component[axis].values, face,
-                  [&](float& ghost, float inner, int p, int q) { ghost = inflow.at(p, q) ? outer : inner; });
-      } else {
-        const float factor = face / 2 != axis && faces[face] == FaceKind::noSlip ? -1.0f : 1.0f;
-        forGhosts(component[axis].values, face, [&](float& ghost, float inner, int, int) { ghost = factor * inner; });
-      }
-    }
+    fillSpeedGhosts(component[axis], axis, velocity, settings);
   }
 }
 
 void padScalar(PaddedGrid& padded, const Grid3<float>& scalar, const MacVelocity& velocity, const Faces& faces,
                float ambient) {
   copyInside(padded, scalar);
-  for (int face = 0; face < 6; ++face) {
-    if (faces[face] == FaceKind::periodic) {
-      wrap(padded.values, face, false);
-      continue;
-    }
-    const Inflow inflow(velocity, face);
-    forGhosts(padded.values, face,
-              [&](float& ghost, float inner, int p, int q) { ghost = inflow.at(p, q) ? ambient : inner; });
-  }
+  fillScalarGhosts(padded, velocity, faces, ambient);
 }
 
 }  // namespace brisance

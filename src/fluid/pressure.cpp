@@ -23,37 +23,88 @@ void prepareFields(const FluidState& gas, PressureScratch& scratch) {
     if (!(field->layout == layout)) *field = CellField(layout);
 }
 
+/// What is corrected, and how far.
+struct Correction {
+  FluidState& gas;
+  const FluidSettings& settings;
+  double dt, tolerance;
+  const BodyPush& push;
+  bool further = false;  ///< the pressure of an earlier attempt is added to
+};
+
+/// Spaces that only a source of sum zero suits: a body that gives way would be one's way out.
+SealedRegions sealedRegions(const SolidStamp& solid, const BodyPush& push) {
+  SealedRegions sealed = solid.sealed;
+  for (std::size_t n = 0; n < sealed.size(); ++n)
+    if (!push.empty() && push.yielding()[n]) sealed[n] = 0;
+  return sealed;
+}
+
+/// Regions in which nothing is to be done; nothing shall be, however coarsely the others are solved.
+std::vector<std::uint8_t> quietRegions(const SolidStamp& solid, const BodyPush& push, const CellField& b) {
+  const std::size_t count = solid.sealed.size();
+  std::vector<std::uint8_t> quiet(count, 1);
+  if (count == 1) return {0};
+  const Vec3i n = solid.region.size;
+  for (int k = 0; k < n.z; ++k)
+    for (int j = 0; j < n.y; ++j)
+      for (int i = 0; i < n.x; ++i)
+        if (b(i, j, k) != 0 && solid.region(i, j, k) >= 0) quiet[solid.region(i, j, k)] = 0;
+  for (std::size_t r = 0; r < count; ++r)  // a body carries the push from one region to the next
+    if (!push.empty() && push.touches(static_cast<int>(r))) quiet[r] = 0;
+  return quiet;
+}
+
+void clearRegions(const SolidStamp& solid, const std::vector<std::uint8_t>& quiet, CellField& x) {
+  if (std::find(quiet.begin(), quiet.end(), 1) == quiet.end()) return;
+  const Vec3i n = solid.region.size;
+  for (int k = 0; k < n.z; ++k)
+    for (int j = 0; j < n.y; ++j)
+      for (int i = 0; i < n.x; ++i)
+        if (const int region = solid.region(i, j, k); region >= 0 && quiet[region]) x(i, j, k) = 0;
+}
+
 /// Makes the velocity obey by corrections, each from the divergence that the velocity itself still has, so that
-/// rounding in the solver cannot hide. `solve(goal)` replaces scratch.field, b, by x with a residual of goal |b|; where
-/// it gives up, no further correction is tried. `further`: the pressure of an earlier attempt is added to.
+/// rounding in the solver cannot hide. `solve(goal)` replaces `field`, b, by x with a residual of goal |b|; where it
+/// gives up, no further correction is tried.
 template <class Solve>
-PressureReport correctVelocity(FluidState& gas, const FluidSettings& settings, double dt, double tolerance,
-                               bool further, CellField& field, const Solve& solve) {
+PressureReport correctVelocity(const Correction& task, CellField& field, const Solve& solve) {
   constexpr int mostPasses = 8;
   constexpr double aim = 0.7;               // of what is left to do, so that rounding does not cost another pass
   constexpr double singlePrecision = 1e-4;  // relative residual that one solution in single precision surely reaches
+  FluidState& gas = task.gas;
+  const SealedRegions sealed = sealedRegions(gas.solid, task.push);
+  const bool refuse = !task.settings.removeMeanSource && gas.solid.bodies.empty();
+  std::vector<std::uint8_t> quiet;
   PressureReport report;
   double atFirst = 0;
   bool gaveUp = false;
   for (int pass = 0;; ++pass) {
     const SourceNorms norms = computeSource(gas, field);
-    const PocketSources pockets =
-        removePocketSources(gas, settings, pass == 0, [&](int i, int j, int k) -> float& { return field(i, j, k); });
+    if (pass == 0) quiet = quietRegions(gas.solid, task.push, field);
+    const PocketSources pockets = removePocketSources(gas, sealed, refuse && pass == 0,
+                                                      [&](int i, int j, int k) -> float& { return field(i, j, k); });
     const double left = pockets.count > 0 ? fieldNorm(field) : norms.source;
     if (pass == 0) {
       atFirst = left;
       report.sealedPockets = pockets.count;
       report.removedSource = pockets.removed;
     }
-    const double goal = std::max(tolerance * atFirst, norms.rounding);
+    const double goal = std::max(task.tolerance * atFirst, norms.rounding);
     report.residual = atFirst > 0 ? left / atFirst : 0;
     report.converged = left <= goal;
     if (report.converged || gaveUp || pass == mostPasses) return report;
     const PressureReport correction = solve(std::max(aim * goal / left, singlePrecision));
     report.iterations += correction.iterations;
     gaveUp = !correction.converged;
-    subtractGradient(gas, settings.faces, dt, field, pass == 0 && !further);
+    clearRegions(gas.solid, quiet, field);
+    task.push.apply(field, gas);
+    subtractGradient(gas, task.settings.faces, task.dt, field, pass == 0 && !task.further);
   }
+}
+
+BodyPush pushOf(const FluidState& gas, const FluidSettings& settings) {
+  return gas.solid.bodies.empty() ? BodyPush() : BodyPush(gas.solid, CellLayout(gas.pressure.size), settings.density);
 }
 
 bool anyPeriodic(const Faces& faces) {
@@ -73,7 +124,8 @@ PressureReport projectBy(const FastPoisson& s, FluidState& gas, const FluidSetti
     scratch.surface = {};
   else
     scratch.surface = findSurface(gas.solid, *scratch.box);
-  return correctVelocity(gas, settings, dt, s.tolerance, false, scratch.field, [&](double goal) {
+  addPush(pushOf(gas, settings), scratch.surface);
+  return correctVelocity({gas, settings, dt, s.tolerance, scratch.surface.push}, scratch.field, [&](double goal) {
     return solveFastPoisson(*scratch.box, scratch.surface, goal, s.maxIterations, scratch.field, scratch.work,
                             scratch.surfaceVectors);
   });
@@ -82,8 +134,9 @@ PressureReport projectBy(const FastPoisson& s, FluidState& gas, const FluidSetti
 PressureReport correctByMultigrid(const MultigridSolver& s, bool further, FluidState& gas,
                                   const FluidSettings& settings, double dt, PressureScratch& scratch) {
   prepareFields(gas, scratch);
-  Multigrid multigrid(gas.solid, settings.faces);
-  return correctVelocity(gas, settings, dt, s.tolerance, further, scratch.field,
+  const BodyPush push = pushOf(gas, settings);
+  Multigrid multigrid(gas.solid, settings.faces, push);
+  return correctVelocity({gas, settings, dt, s.tolerance, push, further}, scratch.field,
                          [&](double goal) { return multigrid.solve(scratch.field, goal, s.maxIterations); });
 }
 
@@ -96,10 +149,13 @@ PressureReport projectBy(const MultigridSolver& s, FluidState& gas, const FluidS
 PressureReport projectBy(const ConjugateGradient& s, FluidState& gas, const FluidSettings& settings, double dt,
                          PressureScratch& scratch) {
   refusePeriodic(settings.faces, "conjugate_gradient");
+  if (!pushOf(gas, settings).empty())
+    throw InputError("gas.pressure.type: conjugate_gradient does not push bodies: use auto");
   ConjugateGradientScratch& vectors = scratch.conjugateGradient;
   startConjugateGradient(gas, dt, vectors);
-  const PocketSources pockets = removePocketSources(
-      gas, settings, true, [&](int i, int j, int k) -> double& { return vectors.r(i + 1, j + 1, k + 1); });
+  const PocketSources pockets =
+      removePocketSources(gas, gas.solid.sealed, !settings.removeMeanSource && gas.solid.bodies.empty(),
+                          [&](int i, int j, int k) -> double& { return vectors.r(i + 1, j + 1, k + 1); });
   const PressureOperator op = makePressureOperator(gas.solid, settings.faces);
   PressureReport report = solveConjugateGradient(op, s, vectors);
   report.sealedPockets = pockets.count;
@@ -147,8 +203,14 @@ Continuity continuityOf(const FluidState& gas) {
       const double wrong = flow * perLength - phi[i];
       return inside[i] ? 0 : wrong * wrong;
     });
-    sums.source += laneSum(n.x, [&](std::int64_t i) { return inside[i] ? 0 : double(phi[i]) * phi[i]; });
-    sums.created += laneSum(n.x, [&](std::int64_t i) { return inside[i] ? 0 : phi[i]; });
+    sums.source += laneSum(n.x, [&](std::int64_t i) {
+      const double source = double(phi[i]) * phi[i];
+      return inside[i] ? 0 : source;
+    });
+    sums.created += laneSum(n.x, [&](std::int64_t i) {
+      const float source = phi[i];
+      return inside[i] ? 0 : source;
+    });
   };
   parallelFor(0, n.z, 2, [&](std::int64_t first, std::int64_t last) {
     for (int k = static_cast<int>(first); k < last; ++k)

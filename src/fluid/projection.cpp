@@ -78,17 +78,21 @@ class GradientStep {
     const Vec3i n = gas_.pressure.size;
     const bool around = faces_[2] == FaceKind::periodic;
     for (int j = 0; j <= n.y; ++j)
-      gradientRow(j == 0 ? coupling(2) : j == n.y ? coupling(3) : perCell_, &gas_.solid.openShare.v(0, j, k),
-                  x_.row(j == 0 && around ? n.y - 1 : j - 1, k), x_.row(j == n.y && around ? 0 : j, k), n.x,
-                  &gas_.velocity.v(0, j, k));
+      gradientRow(j == 0     ? coupling(2)
+                  : j == n.y ? coupling(3)
+                             : perCell_,
+                  &gas_.solid.openShare.v(0, j, k), x_.row(j == 0 && around ? n.y - 1 : j - 1, k),
+                  x_.row(j == n.y && around ? 0 : j, k), n.x, &gas_.velocity.v(0, j, k));
   }
   void alongZ(int k) const {
     const Vec3i n = gas_.pressure.size;
     const bool around = faces_[4] == FaceKind::periodic;
     for (int j = 0; j < n.y; ++j)
-      gradientRow(k == 0 ? coupling(4) : k == n.z ? coupling(5) : perCell_, &gas_.solid.openShare.w(0, j, k),
-                  x_.row(j, k == 0 && around ? n.z - 1 : k - 1), x_.row(j, k == n.z && around ? 0 : k), n.x,
-                  &gas_.velocity.w(0, j, k));
+      gradientRow(k == 0     ? coupling(4)
+                  : k == n.z ? coupling(5)
+                             : perCell_,
+                  &gas_.solid.openShare.w(0, j, k), x_.row(j, k == 0 && around ? n.z - 1 : k - 1),
+                  x_.row(j, k == n.z && around ? 0 : k), n.x, &gas_.velocity.w(0, j, k));
   }
 
  private:
@@ -158,17 +162,17 @@ void subtractGradient(FluidState& gas, const Faces& faces, double dt, const Cell
   });
 }
 
-PocketSources detail::judgePockets(const std::vector<PocketSum>& regions, const FluidState& gas,
-                                   const FluidSettings& settings, bool refuse) {
+PocketSources detail::judgePockets(const std::vector<PocketSum>& regions, const SealedRegions& sealed, double cellSize,
+                                   bool refuse) {
   constexpr double rounding = 1e-5;  // of float velocities
   PocketSources sources;
   for (std::size_t n = 0; n < regions.size(); ++n) {
-    if (!gas.solid.sealed[n]) continue;
+    if (!sealed[n]) continue;
     const PocketSum& pocket = regions[n];
     ++sources.count;
     if (std::abs(pocket.sum) <= rounding * pocket.absolute) continue;
-    const double source = pocket.sum * gas.pressure.cellSize;
-    if (refuse && !settings.removeMeanSource)
+    const double source = pocket.sum * cellSize;
+    if (refuse)
       throw InputError(
           fmt::format("gas: a sealed space of {} cells receives {:.3g} m3/s of gas and has no way out: open a face of "
                       "gas.faces or an opening "

@@ -31,27 +31,29 @@ struct PocketSources {
   int count = 0;
   double removed = 0;
 };
+/// Regions of gas, by number, that have no way out, nor a body that gives way.
+using SealedRegions = std::vector<std::uint8_t>;
 
 namespace detail {
 struct PocketSum {
   double sum = 0, absolute = 0, cells = 0;
 };
-PocketSources judgePockets(const std::vector<PocketSum>& regions, const FluidState& gas, const FluidSettings& settings,
+PocketSources judgePockets(const std::vector<PocketSum>& regions, const SealedRegions& sealed, double cellSize,
                            bool refuse);
 }  // namespace detail
 
-/// A pocket that no open face reaches can only be solved for a source whose sum is zero: takes its mean from at(i, j, k),
-/// b, in all its cells. InputError where that is more than rounding, `refuse` and the settings do not allow it.
+/// A pocket that no open face reaches can only be solved for a source whose sum is zero: takes its mean from at(i, j,
+/// k), b, in all its cells. InputError where that is more than rounding and `refuse`.
 template <class At>
-PocketSources removePocketSources(const FluidState& gas, const FluidSettings& settings, bool refuse, const At& at) {
-  if (gas.solid.pocketCount() == 0) return {};
-  std::vector<detail::PocketSum> regions(gas.solid.sealed.size());
+PocketSources removePocketSources(const FluidState& gas, const SealedRegions& sealed, bool refuse, const At& at) {
+  if (std::find(sealed.begin(), sealed.end(), 1) == sealed.end()) return {};
+  std::vector<detail::PocketSum> regions(sealed.size());
   const Vec3i n = gas.pressure.size;
   const auto forPockets = [&](const auto& visit) {
     for (int k = 0; k < n.z; ++k)
       for (int j = 0; j < n.y; ++j)
         for (int i = 0; i < n.x; ++i)
-          if (const int region = gas.solid.region(i, j, k); region >= 0 && gas.solid.sealed[region])
+          if (const int region = gas.solid.region(i, j, k); region >= 0 && sealed[region])
             visit(regions[region], at(i, j, k));
   };
   forPockets([](detail::PocketSum& pocket, double b) {
@@ -59,7 +61,7 @@ PocketSources removePocketSources(const FluidState& gas, const FluidSettings& se
     pocket.absolute += std::abs(b);
     pocket.cells += 1;
   });
-  const PocketSources sources = detail::judgePockets(regions, gas, settings, refuse);
+  const PocketSources sources = detail::judgePockets(regions, sealed, gas.pressure.cellSize, refuse);
   using Value = std::remove_reference_t<decltype(at(0, 0, 0))>;
   forPockets([](const detail::PocketSum& pocket, Value& b) { b = static_cast<Value>(b - pocket.sum / pocket.cells); });
   return sources;

@@ -112,7 +112,8 @@ class RowEvaluation {
     Vec3i lower = face;
     --lower[axis];
     const bool hasLower = inBox(lower), hasUpper = inBox(face);
-    const CellGas below = hasLower ? gasOf(lower) : CellGas::atCentre, above = hasUpper ? gasOf(face) : CellGas::atCentre;
+    const CellGas below = hasLower ? gasOf(lower) : CellGas::atCentre,
+                  above = hasUpper ? gasOf(face) : CellGas::atCentre;
     if (below == CellGas::none || above == CellGas::none) return false;
     if (below == CellGas::atCentre && above == CellGas::atCentre)
       return !lattice_.crossed[axis](face.x, face.y, face.z);
@@ -228,8 +229,8 @@ void SolidLattice::copyRow(const SolidLattice& from, int j, int k) {
   points[row] = from.points[row];
 }
 
-void evaluateRows(const FluidSettings& settings, const Surfaces& surfaces, const RowSet& touched,
-                  SolidLattice& lattice, SolidStamp& stamp) {
+void evaluateRows(const FluidSettings& settings, const Surfaces& surfaces, const RowSet& touched, SolidLattice& lattice,
+                  SolidStamp& stamp) {
   RowEvaluation rows(settings, surfaces, lattice, stamp);
   const RowSet near = touched.grown(settings.faces, 1), further = near.grown(settings.faces, 1);
   const RowSet all = further.grown(settings.faces, rowsOfInfluence - 2);

@@ -41,11 +41,11 @@ class RowSet {
 
 /// What is known of each face and cell. `covered` and `crossed` add up over bodies; the rest follows from them.
 struct SolidLattice {
-  MacVelocity covered;                      ///< share of the face in bodies, 0 or more
+  MacVelocity covered;  ///< share of the face in bodies, 0 or more
   std::array<Grid3<std::uint8_t>, 3> crossed;
   Grid3<std::uint8_t> centreInside;
   Grid3<CellGas> gas;
-  Grid3<std::uint8_t> sliver;               ///< 1: so little of the cell is open that it counts as solid
+  Grid3<std::uint8_t> sliver;                 ///< 1: so little of the cell is open that it counts as solid
   std::vector<std::vector<GasPoint>> points;  ///< by row, ascending
 
   explicit SolidLattice(const FluidSettings& settings);
@@ -55,8 +55,8 @@ struct SolidLattice {
 
 /// Works out openShare, inside and cutRows of `stamp` for all rows that the touched ones may concern. `lattice` and
 /// `stamp` hold in other rows what they held before.
-void evaluateRows(const FluidSettings& settings, const Surfaces& surfaces, const RowSet& touched,
-                  SolidLattice& lattice, SolidStamp& stamp);
+void evaluateRows(const FluidSettings& settings, const Surfaces& surfaces, const RowSet& touched, SolidLattice& lattice,
+                  SolidStamp& stamp);
 /// How far from a touched row a value may change.
 constexpr int rowsOfInfluence = 3;
 

@@ -5,40 +5,9 @@
 #include "base/parallel.h"
 #include "base/vector_path.h"
 #include "fluid/cooling.h"
+#include "fluid/diffusion.h"
 
 namespace brisance {
-
-namespace {
-/// c_k times the Laplacian, through open inner faces only: Neumann at the box (thesis 2.4.3) and at solids. Around a
-/// periodic box.
-void conduct(FluidState& gas, const FluidSettings& settings, double dt, Grid3<float>& scratch) {
-  scratch = gas.temperature;
-  const Grid3<float>& T = scratch;
-  const float share = static_cast<float>(settings.conductivity * dt / (settings.cellSize * settings.cellSize));
-  parallelFor(0, T.size.z, 2, [&](std::int64_t first, std::int64_t last) {
-    for (int k = static_cast<int>(first); k < last; ++k)
-      for (int j = 0; j < T.size.y; ++j)
-        for (int i = 0; i < T.size.x; ++i) {
-          const std::int64_t here = T.index(i, j, k);
-          const int place[3] = {i, j, k};
-          float sum = 0;
-          for (int axis = 0; axis < 3; ++axis) {
-            const Grid3<float>& open = gas.solid.openShare.component(axis);
-            const std::int64_t face = open.index(i, j, k), step = T.stride(axis);
-            const bool periodic = settings.faces[2 * axis] == FaceKind::periodic;
-            const std::int64_t around = step * (T.size[axis] - 1);
-            const bool atLower = place[axis] == 0, atUpper = place[axis] + 1 == T.size[axis];
-            if (!atLower || periodic)
-              sum += open.values[face] * (T.values[atLower ? here + around : here - step] - T.values[here]);
-            if (!atUpper || periodic)
-              sum += open.values[face + open.stride(axis)] *
-                     (T.values[atUpper ? here - around : here + step] - T.values[here]);
-          }
-          gas.temperature.values[here] += share * sum;
-        }
-  });
-}
-}  // namespace
 
 double cooled(double theta, double range, double rate, double dt) {
   if (theta <= 0) return theta;
@@ -48,8 +17,8 @@ double cooled(double theta, double range, double rate, double dt) {
   return theta / std::cbrt(1 + 3 * (rate / range) * x * x * x * dt);
 }
 
-Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt, Grid3<float>& scratch) {
-  if (settings.conductivity > 0) conduct(gas, settings, dt, scratch);
+Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt) {
+  if (settings.conductivity > 0) conduct(gas, settings, dt);
   const HeatRow heatRow(settings, dt);
   const Vec3i n = gas.temperature.size;
   std::vector<HeatRow::Sums> planes(n.z);

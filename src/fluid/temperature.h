@@ -12,7 +12,7 @@ double cooled(double theta, double range, double rate, double dt);
 
 /// Conducts, heats and cools all cells over dt [s]. Returns [J]: `in` what the heat source released, `lost` what was
 /// radiated.
-Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt, Grid3<float>& scratch);
+Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt);
 
 /// Heat that the box holds above ambient [J].
 double heatContent(const FluidState& gas, const FluidSettings& settings);

@@ -59,7 +59,8 @@ double Surfaces::firstMeeting(const Vec3d& p, const Vec3d& q, const Vec3i& cell,
     if (set == nullptr) continue;
     for (const Vec3i& c : {cell, neighbour})
       if (box.contains(c))
-        set->forCell(box.cellIndex(c), [&](const Corners& triangle) { first = std::min(first, meets(p, q, triangle)); });
+        set->forCell(box.cellIndex(c),
+                     [&](const Corners& triangle) { first = std::min(first, meets(p, q, triangle)); });
   }
   return first;
 }

@@ -141,8 +141,12 @@ class Confinement {
     const Grid3<float>& speed = old_.component(axis);
     const float *from = &speed(first, j, k), *open = &solid_.openShare.component(axis)(first, j, k);
     float* to = &out_.component(axis)(first, j, k);
+    const float perForce = perForce_;
 #pragma GCC ivdep
-    for (int i = 0; i < count; ++i) to[i] = open[i] > 0 ? from[i] + perForce_ * (lower[i] + upper[i]) : from[i];
+    for (int i = 0; i < count; ++i) {
+      const float before = from[i], after = before + perForce * (lower[i] + upper[i]);
+      to[i] = open[i] > 0 ? after : before;
+    }
   }
 
   void push(int k) {

@@ -37,13 +37,17 @@ CameraKey cameraAt(const CameraSettings& settings, double time) {
   const Span span{before == keys.begin() ? *before : *(before - 1), *before, *after,
                   after + 1 == keys.end() ? *after : *(after + 1),
                   (time - before->time) / (after->time - before->time)};
-  return {time, between<Vec3d>(span, [](const CameraKey& k) { return k.position; }),
+  return {time,
+          between<Vec3d>(span, [](const CameraKey& k) { return k.position; }),
           between<Vec3d>(span, [](const CameraKey& k) { return k.lookAt; }),
           between<Vec3d>(span, [](const CameraKey& k) { return k.up; }),
-          between<double>(span, [](const CameraKey& k) { return k.fovDegrees; })};
+          between<double>(span, [](const CameraKey& k) { return k.fovDegrees; }),
+          std::max(0.0, between<double>(span, [](const CameraKey& k) { return k.lensRadius; })),
+          between<double>(span, [](const CameraKey& k) { return k.focusDistance; })};
 }
 
-Camera::Camera(const CameraKey& key, int width, int height) : position_(key.position) {
+Camera::Camera(const CameraKey& key, int width, int height)
+    : position_(key.position), focusDistance_(key.focusDistance) {
   const Vec3d forward = normalized(key.lookAt - key.position);
   Vec3d right = cross(forward, key.up);
   constexpr double nearlyAlong = 1e-9;
@@ -54,9 +58,18 @@ Camera::Camera(const CameraKey& key, int width, int height) : position_(key.posi
   const double pixel = 2 * std::tan(key.fovDegrees * pi / 360) / height;  // at distance 1
   right_ = right * pixel;
   down_ = up * -pixel;
+  lensRight_ = right * key.lensRadius;
+  lensUp_ = up * key.lensRadius;
   upperLeft_ = forward - right_ * (0.5 * width) - down_ * (0.5 * height);
 }
 
 Vec3d Camera::direction(double x, double y) const { return normalized(upperLeft_ + right_ * x + down_ * y); }
+
+CameraWay Camera::way(double x, double y, const Vec2<float>& lens) const {
+  const Vec3d ahead = upperLeft_ + right_ * x + down_ * y;  // 1 along the view
+  const double radius = std::sqrt(static_cast<double>(lens.x)), around = 2 * pi * lens.y;
+  const Vec3d aside = lensRight_ * (radius * std::cos(around)) + lensUp_ * (radius * std::sin(around));
+  return {position_ + aside, normalized(ahead - aside / focusDistance_)};
+}
 
 }  // namespace brisance

@@ -9,7 +9,12 @@ namespace brisance {
 /// first and after the last key that key holds. Keys in order of time; without keys the default key.
 CameraKey cameraAt(const CameraSettings& settings, double time);
 
-/// A pinhole camera.
+/// A way that light takes into the camera, backwards.
+struct CameraWay {
+  Vec3d origin, direction;  ///< [m], unit
+};
+
+/// A pinhole or a thin lens.
 class Camera {
  public:
   /// A picture of `width` x `height` square pixels. Where `up` is along the view, another axis stands in for it.
@@ -17,9 +22,14 @@ class Camera {
   const Vec3d& position() const { return position_; }
   /// Unit direction through a place of the picture: (0, 0) its upper left corner, (width, height) its lower right one.
   Vec3d direction(double x, double y) const;
+  /// The way through that place and a place of the lens, both of `lens` uniform in 0 .. 1: all ways of a picture place
+  /// meet in the plane of focus.
+  CameraWay way(double x, double y, const Vec2<float>& lens) const;
 
  private:
   Vec3d position_, upperLeft_, right_, down_;  ///< upperLeft_ + x right_ + y down_: through pixel place (x, y)
+  Vec3d lensRight_, lensUp_;                   ///< [m] radii of the lens
+  double focusDistance_;                       ///< [m]
 };
 
 }  // namespace brisance

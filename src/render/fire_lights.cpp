@@ -9,12 +9,6 @@ namespace {
 
 constexpr Vec3d luminanceWeights{0.2126, 0.7152, 0.0722};
 
-struct GlowingBlock {
-  Vec3d place;
-  Vec3d intensity;
-  double luminance;
-};
-
 /// Adds to `escape` the share of light that leaves the gas from each block along an axis, both ways.
 void addEscape(const Grid3<float>& extinction, int axis, Grid3<float>& escape) {
   const Vec3i n = extinction.size;
@@ -38,22 +32,6 @@ void addEscape(const Grid3<float>& extinction, int axis, Grid3<float>& escape) {
       sweep(line, stride);
       sweep(line + (length - 1) * stride, -stride);
     }
-}
-
-std::vector<GlowingBlock> glowingBlocks(const GasMedium& gas) {
-  const Grid3<Vec3f>& glow = gas.blockGlow();
-  Grid3<float> escape(glow.size, glow.origin, glow.cellSize);
-  for (int axis = 0; axis < 3; ++axis) addEscape(gas.blockExtinction(), axis, escape);
-  constexpr double directions = 6;
-  std::vector<GlowingBlock> blocks;
-  for (int k = 0; k < glow.size.z; ++k)
-    for (int j = 0; j < glow.size.y; ++j)
-      for (int i = 0; i < glow.size.x; ++i) {
-        const Vec3d intensity = Vec3d(glow(i, j, k)) * (escape(i, j, k) / directions);
-        const double luminance = dot(luminanceWeights, intensity);
-        if (luminance > 0) blocks.push_back({glow.position(i, j, k), intensity, luminance});
-      }
-  return blocks;
 }
 
 double luminanceOf(std::span<const GlowingBlock> blocks) {
@@ -100,6 +78,22 @@ void split(std::span<GlowingBlock> blocks, int count, std::vector<FirePoint>& po
 }
 
 }  // namespace
+
+std::vector<GlowingBlock> glowingBlocks(const GasMedium& gas) {
+  const Grid3<Vec3f>& glow = gas.blockGlow();
+  Grid3<float> escape(glow.size, glow.origin, glow.cellSize);
+  for (int axis = 0; axis < 3; ++axis) addEscape(gas.blockExtinction(), axis, escape);
+  constexpr double directions = 6;
+  std::vector<GlowingBlock> blocks;
+  for (int k = 0; k < glow.size.z; ++k)
+    for (int j = 0; j < glow.size.y; ++j)
+      for (int i = 0; i < glow.size.x; ++i) {
+        const Vec3d intensity = Vec3d(glow(i, j, k)) * (escape(i, j, k) / directions);
+        const double luminance = dot(luminanceWeights, intensity);
+        if (luminance > 0) blocks.push_back({{i, j, k}, glow.position(i, j, k), intensity, luminance});
+      }
+  return blocks;
+}
 
 std::vector<FirePoint> findFirePoints(const GasMedium& gas, int count) {
   std::vector<FirePoint> points;

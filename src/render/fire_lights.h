@@ -14,6 +14,15 @@ struct FirePoint {
   float radius = 0;  ///< [m] root mean square distance of the glow from `position`
 };
 
+/// A block of the gas and what of its glow leaves the gas.
+struct GlowingBlock {
+  Vec3i block;
+  Vec3d place;      ///< [m] its middle
+  Vec3d intensity;  ///< as of a FirePoint
+  double luminance;
+};
+std::vector<GlowingBlock> glowingBlocks(const GasMedium& gas);
+
 /// Splits the glow into at most `count` clusters of about equal luminance, by weighted medians along the longest axis.
 ///
 /// In the optically thin limit the radiance of a ray is the integral of extinction times glow along it, so a small

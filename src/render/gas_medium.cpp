@@ -1,17 +1,15 @@
 #include "render/gas_medium.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "base/parallel.h"
 #include "base/vector_path.h"
+#include "render/gas_steps.h"
 
 namespace brisance {
 namespace {
 
-constexpr float opaqueEnough = 0.999f;  // appendix A.2
 /// The share of the density range over which min_d fades in.
 constexpr float fadeInShare = 0.01f;
 /// Samples one and a half deviations of the blur apart: the sum over samples of a Gaussian is then its integral to
@@ -29,16 +27,6 @@ Corner corner(float cells, int n) {
   const float inside = std::clamp(cells, 0.0f, static_cast<float>(n - 1));
   const int first = std::min(static_cast<int>(inside), std::max(0, n - 2));
   return {first, inside - static_cast<float>(first)};
-}
-
-/// e^x for x <= 0 to 3e-7, by the bits of a float: 2^k times a polynomial of the rest.
-float fastExp(float x) {
-  constexpr float log2e = 1.44269504f;
-  const float t = std::max(x * log2e, -126.0f);
-  const float k = std::floor(t + 0.5f), r = (t - k) * 0.693147181f;
-  const float fraction =
-      1 + r * (1 + r * (0.5f + r * (1.0f / 6 + r * (1.0f / 24 + r * (1.0f / 120 + r * (1.0f / 720))))));
-  return fraction * std::bit_cast<float>((static_cast<std::int32_t>(k) + 127) << 23);
 }
 
 /// A block grid's value between the centres of the blocks around a place given in cells.
@@ -196,34 +184,6 @@ bool GasMedium::clip(GasPath& path) const {
   return path.near < path.far;
 }
 
-namespace {
-
-/// Where a way through the fine grid is, in cells.
-struct GridWay {
-  Vec3f origin, direction;  ///< [cells], [cells/m]
-  Vec3f at(float distance) const { return origin + direction * distance; }
-  /// The block around a place.
-  Vec3i block(const Vec3f& place, const Vec3i& blocks) const {
-    const auto along = [&](int axis) {
-      return std::clamp(static_cast<int>(place[axis]) / GasMedium::blockCells, 0, blocks[axis] - 1);
-    };
-    return {along(0), along(1), along(2)};
-  }
-  /// The distance [m] at which the way leaves a block; outermost blocks have no end outwards.
-  float leaves(const Vec3i& block, const Vec3i& blocks) const {
-    float nearest = std::numeric_limits<float>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool forward = direction[axis] > 0;
-      if (direction[axis] == 0 || (forward ? block[axis] + 1 == blocks[axis] : block[axis] == 0)) continue;
-      const auto face = static_cast<float>(GasMedium::blockCells * (forward ? block[axis] + 1 : block[axis]));
-      nearest = std::min(nearest, (face - origin[axis]) / direction[axis]);
-    }
-    return nearest;
-  }
-};
-
-}  // namespace
-
 /// Equations A.3 and A.4 for one step of a length [m] around a place [cells].
 void GasMedium::addStep(const Vec3f& place, float stepLength, GasPassage& passage) const {
   const GasSample sample = sampleAt(place);
@@ -231,7 +191,7 @@ void GasMedium::addStep(const Vec3f& place, float stepLength, GasPassage& passag
   const float passing = fastExp(-optics_.extinction(sample.density()) * stepLength);
   passage.light += sample.light() * ((1 - passing) * passage.transmittance);
   passage.transmittance *= passing;
-  if (passage.transmittance < 1 - opaqueEnough) passage.transmittance = 0;
+  if (passage.transmittance < seeThrough) passage.transmittance = 0;
 }
 
 void GasMedium::bakeScattered() {
@@ -260,36 +220,12 @@ GasPassage GasMedium::march(const GasPath& path) const {
   return passage;
 }
 
-GasPassage GasMedium::marchHere(GasPath path) const {
+GasPassage GasMedium::marchHere(const GasPath& path) const {
   GasPassage passage;
-  if (!clip(path)) return passage;
-  const float perCell = 1 / cellSize_;
-  const GridWay way{(path.origin - origin_) * perCell, path.direction * perCell};
-  // Step n covers the distances from (n - 1 + phase) to (n + phase) steps, cut to the path: the steps of neighbouring
-  // segments of a ray join without gap or overlap.
-  float n = std::floor(path.near / step_ - path.phase) + 1;
-  for (float from = path.near; from < path.far; n += 1) {
-    const float to = std::min((n + path.phase) * step_, path.far);
-    const Vec3f place = way.at(0.5f * (from + to));
-    const Vec3i block = way.block(place, blockLargest_.size);
-    const float out = way.leaves(block, blockLargest_.size);
-    if (blockLargest_(block.x, block.y, block.z) <= 0) {
-      if (out >= path.far) break;
-      n = std::max(n, std::floor(out / step_ - path.phase));
-      from = std::max(to, (n + path.phase) * step_);
-      continue;
-    }
-    addStep(place, to - from, passage);
-    from = to;
-    // The further steps whose middle lies in this block need not look it up again.
-    for (; from < path.far && passage.transmittance > 0; n += 1) {
-      const float end = std::min((n + 1 + path.phase) * step_, path.far), middle = 0.5f * (from + end);
-      if (middle >= out) break;
-      addStep(way.at(middle), end - from, passage);
-      from = end;
-    }
-    if (passage.transmittance == 0) break;
-  }
+  alongSteps(path, [&](const GasStep& step) {
+    addStep(step.place, step.to - step.from, passage);
+    return passage.transmittance > 0;
+  });
   return passage;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "frame/particle_volume.h"
 #include "render/render_settings.h"
@@ -39,6 +40,8 @@ class GasOptics {
 };
 
 struct LightSource;
+class FireSampler;
+class NumberRun;
 
 /// A sample of the gas as one vector of the processor: density times light, and the density.
 struct GasSample {
@@ -77,6 +80,23 @@ class GasMedium {
   /// The share of light that passes, from the mean of each block alone: for shadows.
   float roughTransmittance(const GasPath& path) const;
 
+  // What the path integrator asks. It never calls illuminate(): gas then gives off its own light alone.
+
+  /// As march(), for a way drawn with `density` [1/sr] from its origin: light that `fire` could have drawn as well
+  /// counts by its share of both (balance heuristic).
+  GasPassage marchShared(const GasPath& path, float density, const FireSampler& fire) const;
+  /// The share of light that passes, cell by cell.
+  float transmittance(const GasPath& path) const;
+  /// Where the way has passed `share` of the opacity 1 - `transmittance` of all of it [m].
+  float distanceAtOpacity(const GasPath& path, float transmittance, float share) const;
+  /// Where light going this way is absorbed or scattered first, drawn by delta tracking (Woodcock et al. 1965) with the
+  /// largest density of each block; nothing when it passes. [m]
+  std::optional<float> collision(const GasPath& path, NumberRun& numbers) const;
+  /// The light that a place gives off per metre. [radiance/m]
+  Vec3f emissionAt(const Vec3f& place) const;
+  /// The part of the volume that the cells of a block fill. [m]
+  Box3 blockBox(int i, int j, int k) const;
+
   /// What a block's gas gives off: the integral of extinction times glow over its cells, [radiance m2].
   const Grid3<Vec3f>& blockGlow() const { return blockGlow_; }
   /// [1/m], mean over the block's cells (blocks at the upper ends of the volume may have fewer).
@@ -92,7 +112,10 @@ class GasMedium {
   void bakeScattered();
   void bakeRow(int j, int k);
   // The loops themselves, compiled for the processor at hand by their callers.
-  GasPassage marchHere(GasPath path) const;
+  template <class Step>
+  void alongSteps(GasPath path, const Step& step) const;
+  GasPassage marchHere(const GasPath& path) const;
+  std::optional<float> collisionHere(GasPath path, NumberRun& numbers) const;
   float roughTransmittanceHere(GasPath path) const;
   bool clip(GasPath& path) const;
 

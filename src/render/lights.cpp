@@ -1,6 +1,9 @@
 #include "render/lights.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "render/scattering.h"
 
 namespace brisance {
 namespace {
@@ -11,7 +14,8 @@ void addSources(const PointLight& light, const GasMedium*, std::vector<LightSour
 }
 
 void addSources(const SunLight& light, const GasMedium*, std::vector<LightSource>& sources) {
-  sources.push_back({LightSource::Kind::sun, Vec3f(-normalized(light.direction)), light.radiance});
+  sources.push_back({LightSource::Kind::sun, Vec3f(-normalized(light.direction)), light.radiance, 0, 0,
+                     static_cast<float>(std::cos(light.angleDegrees * pi / 360))});
 }
 
 void addSources(const FireLight& light, const GasMedium* gas, std::vector<LightSource>& sources) {
@@ -30,6 +34,20 @@ ArrivingLight LightSource::at(const Vec3f& from) const {
   const float softened = std::sqrt(distance * distance + radius * radius);
   const float fall = falloff == 2 ? 1 / (softened * softened) : std::pow(softened, -falloff);
   return {normalized(way), distance, intensity * fall};
+}
+
+ArrivingLight LightSource::at(const Vec3f& from, const Vec2<float>& where) const {
+  ArrivingLight light = at(from);
+  if (cosine >= 1) return light;
+  const float z = 1 - where.x * (1 - cosine), sine = std::sqrt(std::max(0.0f, 1 - z * z));
+  const float around = 2 * static_cast<float>(pi) * where.y;
+  light.toLight = Axes(light.toLight, {}).toWorld({sine * std::cos(around), sine * std::sin(around), z});
+  return light;
+}
+
+Vec3f LightSource::discSeenAlong(const Vec3f& direction) const {
+  if (kind != Kind::sun || cosine >= 1 || dot(direction, place) < cosine) return {};
+  return intensity / (2 * (1 - cosine));
 }
 
 std::vector<LightSource> lightSources(const std::vector<Light>& lights, const GasMedium* gas) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/check.h"
-#include "render/dielectric.h"
 
 namespace brisance {
 namespace {
@@ -15,10 +14,46 @@ std::string listed(const std::vector<std::string>& names) {
   return list.empty() ? "none" : list;
 }
 
+Vec3f colourOf(const SolidColour& solid, const TexturePlace&) { return solid.colour; }
+Vec3f colourOf(const ImageTexture&, const TexturePlace&) { return {}; }  // its picture knows
+template <class Pattern>
+Vec3f colourOf(const Pattern& pattern, const TexturePlace& place) {
+  return patternColour(pattern, place);
+}
+
 }  // namespace
 
-Vec3f SurfaceMaterial::diffuseColour(const Vec2<float>& uv) const {
-  return picture ? picture->at(uv.x, uv.y) : std::get<SolidColour>(settings.diffuse).colour;
+Vec3f SurfaceMaterial::diffuseColour(const TexturePlace& place) const {
+  if (picture) return picture->at(place.uv.x, place.uv.y);
+  return std::visit([&](const auto& texture) { return colourOf(texture, place); }, settings.diffuse);
+}
+
+Vec3f SurfaceMaterial::typicalColour() const { return picture ? picture->mean() : diffuseColour({}); }
+
+bool SurfaceMaterial::isSolidPattern() const {
+  return std::holds_alternative<Wood>(settings.diffuse) || std::holds_alternative<Marble>(settings.diffuse);
+}
+
+bool SurfaceMaterial::isAnisotropic() const {
+  const auto* model = std::get_if<AshikhminLighting>(&settings.lighting);
+  return model && model->exponentU != model->exponentV;
+}
+
+SurfaceScattering SurfaceMaterial::opaque(const TexturePlace& place) const {
+  const Vec3f diffuse = diffuseColour(place) * static_cast<float>(settings.diffuseWeight);
+  if (const auto* model = std::get_if<AshikhminLighting>(&settings.lighting))
+    return AshikhminShirley{diffuse, settings.specular, static_cast<float>(model->exponentU),
+                            static_cast<float>(model->exponentV)};
+  if (settings.specular == Vec3f{}) return Lambert{diffuse};
+  return Phong{diffuse, settings.specular, static_cast<float>(settings.specularExponent)};
+}
+
+SurfaceScattering SurfaceMaterial::glass(bool fromInside) const {
+  constexpr double hardlyBends = 1e-3;  // of the index: a rough surface of such glass has no half vectors
+  const double index = settings.refractiveIndex;
+  const auto ratio = static_cast<float>(fromInside ? index : 1 / index);
+  if (settings.roughness == 0 || index - 1 < hardlyBends) return SmoothDielectric{ratio};
+  return RoughDielectric{ratio, static_cast<float>(settings.roughness)};
 }
 
 MaterialTable::MaterialTable(const RenderSettings& settings, const TextureLibrary& textures) {
@@ -50,14 +85,6 @@ std::vector<std::uint16_t> MaterialTable::ofTriangles(const FrameBody& body) con
   numbers.reserve(mesh.materials.size());
   for (const std::uint16_t name : mesh.materials) numbers.push_back(ofName.at(name));
   return numbers;
-}
-
-Vec3f phongShare(const PhongPoint& point, const Vec3f& toLight) {
-  const float facing = dot(point.normal, toLight);
-  if (facing <= 0) return {};
-  const float mirrored = -dot(point.toViewer, reflected(toLight, point.normal));
-  if (mirrored <= 0 || point.specular == Vec3f{}) return point.diffuse * facing;
-  return point.diffuse * facing + point.specular * std::pow(mirrored, point.exponent);
 }
 
 }  // namespace brisance

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "render/scattering.h"
 #include "render/textures.h"
 
 namespace brisance {
@@ -14,13 +15,23 @@ struct SurfaceMaterial {
   Material settings;
   const PictureTexture* picture = nullptr;
 
-  Vec3f diffuseColour(const Vec2<float>& uv) const;
+  Vec3f diffuseColour(const TexturePlace& place) const;
+  /// The mean of diffuseColour over a picture, or an example of it.
+  Vec3f typicalColour() const;
+  /// Whether hits have to know where in the body they are, and which way u goes.
+  bool isSolidPattern() const;
+  bool isAnisotropic() const;
+  /// What an opaque surface is, a perfect mirror's share apart.
+  SurfaceScattering opaque(const TexturePlace& place) const;
+  /// What a surface of glass is to light that comes from outside, or from inside.
+  SurfaceScattering glass(bool fromInside) const;
 };
 
 /// The materials of a picture by number; numbers are smaller than 2^16.
 class MaterialTable {
  public:
   MaterialTable(const RenderSettings& settings, const TextureLibrary& textures);
+  std::size_t size() const { return materials_.size(); }
   const SurfaceMaterial& operator[](std::size_t number) const { return materials_[number]; }
   /// The number of each triangle's material: the triangle's own where the mesh names one that the settings know, else
   /// the body's. One entry for all when the mesh has no materials of its own. Throws InputError naming body and
@@ -32,17 +43,5 @@ class MaterialTable {
   std::vector<std::string> names_;  ///< in order of the alphabet
   std::vector<SurfaceMaterial> materials_;
 };
-
-/// What Phong's model needs to know of a place on a surface.
-struct PhongPoint {
-  Vec3f normal;    ///< facing the viewer
-  Vec3f toViewer;  ///< unit
-  Vec3f diffuse;   ///< R_d times the diffuse colour
-  Vec3f specular;  ///< R_s
-  float exponent;  ///< f
-};
-/// Light returned to the viewer of light 1 that arrives from unit direction `toLight` (appendix A.1.2, its cosines
-/// clamped).
-Vec3f phongShare(const PhongPoint& point, const Vec3f& toLight);
 
 }  // namespace brisance

@@ -1,11 +1,13 @@
 #include "render/render_frame.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "base/parallel.h"
 #include "base/random.h"
 #include "render/camera.h"
+#include "render/path_tracer.h"
 #include "render/sampling.h"
 #include "render/whitted.h"
 
@@ -56,11 +58,14 @@ std::vector<Camera> camerasOf(const RenderSettings& settings, const PictureTime&
   return cameras;
 }
 
+/// An integrator: light along a ray.
+using Follow = std::function<Vec3f(const Ray&, float phase, SampleSequence&)>;
+
 /// Draws pixels.
 class Exposure {
  public:
-  Exposure(const RenderSettings& settings, const RayWorld& world, const PictureTime& time, int frame)
-      : world_(world),
+  Exposure(const RenderSettings& settings, const Follow& follow, const PictureTime& time, int frame)
+      : follow_(follow),
         samples_(settings.samples),
         weights_(subPixelWeights(settings.samples)),
         cameras_(camerasOf(settings, time)),
@@ -85,16 +90,17 @@ class Exposure {
     const double down = y + (s / samples_ + jitter_.uniform(draw + 1)) / samples_;
     // Each sample takes another time of the open shutter, in an order that differs from pixel to pixel.
     const std::size_t when = (jitter_.below(cameras_.size(), pixelNumber) + s) % cameras_.size();
-    const Camera& camera = cameras_[when];
     const float time = (static_cast<float>(when) + 0.5f) / static_cast<float>(cameras_.size());
     // The ways of a pixel through the gas share out a step evenly, from a random start.
     const double phase =
         (s + jitter_.uniform(drawsPerSample * pixelNumber * samples_ * samples_ + 2)) / (samples_ * samples_);
-    return radiance(world_, {Vec3f(camera.position()), Vec3f(camera.direction(across, down)), 0, time},
-                    static_cast<float>(phase));
+    constexpr std::uint64_t pathDraws = std::uint64_t{1} << 62;  // beyond all draws above
+    SampleSequence numbers(jitter_.bits(pathDraws + pixelNumber), static_cast<std::uint32_t>(s));
+    const CameraWay way = cameras_[when].way(across, down, numbers.pair());
+    return follow_({Vec3f(way.origin), Vec3f(way.direction), 0, time}, static_cast<float>(phase), numbers);
   }
 
-  const RayWorld& world_;
+  const Follow& follow_;
   int samples_;
   std::vector<float> weights_;
   std::vector<Camera> cameras_;
@@ -118,10 +124,65 @@ Image exposed(const Exposure& exposure, int width, int height) {
 
 }  // namespace
 
-RenderAssets::RenderAssets(const RenderSettings& settings) : heat(settings.volume.blackbody) {
+RenderAssets::RenderAssets(const RenderSettings& settings)
+    : heat(settings.volume.blackbody), environment(environmentOf(settings)) {
   for (const auto& [name, material] : settings.materials)
     if (const auto* image = std::get_if<ImageTexture>(&material.diffuse)) textures.load(image->file, name);
 }
+
+namespace {
+
+/// What is drawn: a frame with its settings, ready for rays.
+struct Subject {
+  const Frame& frame;
+  const RenderSettings& settings;
+  const Environment& environment;
+  const MaterialTable& materials;
+  const SceneGeometry& geometry;
+  GasMedium* gas;  ///< or none
+  PictureTime time;
+  double openTime;  ///< [s] simulated
+};
+
+Image exposed(const Subject& subject, const Follow& follow) {
+  const RenderSettings& settings = subject.settings;
+  return exposed(Exposure(settings, follow, subject.time, subject.frame.index), settings.width, settings.height);
+}
+
+Image drawn(const Subject& subject, const WhittedIntegrator&) {
+  const RenderSettings& settings = subject.settings;
+  const std::vector<LightSource> lights = lightSources(settings.lights, subject.gas);
+  if (subject.gas) subject.gas->illuminate(settings.ambientLight, lights);
+  const RayWorld world{subject.geometry,    subject.materials,     lights,           subject.gas,
+                       subject.environment, settings.ambientLight, settings.maxDepth};
+  return exposed(subject, [&](const Ray& ray, float phase, SampleSequence&) { return radiance(world, ray, phase); });
+}
+
+/// Fire is no light of the list here: its gas itself is drawn from.
+Image drawn(const Subject& subject, const PathIntegrator& integrator) {
+  const RenderSettings& settings = subject.settings;
+  const std::vector<LightSource> lights = lightSources(settings.lights, nullptr);
+  const AreaLights shining(subject.frame.bodies, subject.materials, subject.openTime);
+  std::optional<FireSampler> fire;
+  if (subject.gas) fire.emplace(*subject.gas);
+  constexpr Vec3f white(1, 1, 1);
+  const PathWorld world{subject.geometry,
+                        subject.materials,
+                        lights,
+                        shining,
+                        subject.environment,
+                        subject.gas,
+                        fire ? &*fire : nullptr,
+                        min(settings.volume.smokeColour, white),
+                        static_cast<float>(settings.volume.anisotropy),
+                        integrator,
+                        settings.maxDepth};
+  return exposed(subject, [&](const Ray& ray, float phase, SampleSequence& numbers) {
+    return pathRadiance(world, ray, phase, numbers);
+  });
+}
+
+}  // namespace
 
 Image renderFrame(const Frame& frame, const RenderSettings& settings, const RenderAssets& assets,
                   const PictureTime& time, RenderScratch& scratch) {
@@ -129,11 +190,8 @@ Image renderFrame(const Frame& frame, const RenderSettings& settings, const Rend
   const double openTime = settings.camera.shutter * time.frameDuration * time.simulatedPerFilm;
   const SceneGeometry geometry(frame.bodies, materials, openTime);
   const std::unique_ptr<GasMedium> gas = gasOf(frame, settings, assets.heat, scratch);
-  const std::vector<LightSource> lights = lightSources(settings.lights, gas.get());
-  if (gas) gas->illuminate(settings.ambientLight, lights);
-  const RayWorld world{geometry,         materials, lights, gas.get(), settings.background, settings.ambientLight,
-                       settings.maxDepth};
-  Image image = exposed(Exposure(settings, world, time, frame.index), settings.width, settings.height);
+  const Subject subject{frame, settings, assets.environment, materials, geometry, gas.get(), time, openTime};
+  Image image = std::visit([&](const auto& integrator) { return drawn(subject, integrator); }, settings.integrator);
   if (gas) scratch.samples = GasMedium::memoryOf(std::move(*gas));
   return image;
 }

@@ -5,6 +5,7 @@
 
 #include "frame/frame.h"
 #include "render/blackbody.h"
+#include "render/environment.h"
 #include "render/gas_medium.h"
 #include "render/image.h"
 #include "render/render_settings.h"
@@ -12,13 +13,14 @@
 
 namespace brisance {
 
-/// What pictures of one run share: its texture files, read once, and its colours of heat.
+/// What pictures of one run share: its picture files, read once, and its colours of heat.
 struct RenderAssets {
-  /// Throws InputError for a texture file that is not there, naming its material, DamagedFile for one that is damaged.
+  /// Throws InputError for a picture file that is not there, naming its material, DamagedFile for one that is damaged.
   explicit RenderAssets(const RenderSettings& settings);
 
   TextureLibrary textures;
   BlackbodyColours heat;
+  Environment environment;
 };
 
 /// Memory that one picture after another may use; its content means nothing.

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,7 +16,9 @@ namespace brisance {
 struct CameraKey {
   double time = 0;  ///< [s] of film
   Vec3d position{0, 0, 5}, lookAt, up{0, 1, 0};
-  double fovDegrees = 40;  ///< vertical; from focal_length_mm and sensor_height_mm where those are given
+  double fovDegrees = 40;    ///< vertical; from focal_length_mm and sensor_height_mm where those are given
+  double lensRadius = 0;     ///< [m] of a thin lens; 0: a pinhole
+  double focusDistance = 5;  ///< [m] along the view, where a lens draws sharply
 };
 struct CameraSettings {
   std::vector<CameraKey> keys;
@@ -28,19 +31,43 @@ struct SolidColour {
 struct ImageTexture {
   std::filesystem::path file;
 };  ///< PNG or JPEG, sRGB
-using Texture = std::variant<SolidColour, ImageTexture>;
+/// Patterns computed from the place in the body's own coordinates (appendix A.1.3); `unit` [m] is one unit of the
+/// thesis' formulas.
+struct Wood {
+  Vec3f colour1{0.35f, 0.16f, 0.06f}, colour2{0.62f, 0.36f, 0.16f};
+  double unit = 1;
+};
+struct Marble {
+  Vec3f colour1{0.85f, 0.83f, 0.78f}, colour2{0.16f, 0.18f, 0.22f};
+  double unit = 1;
+};
+/// A checkerboard of u and v.
+struct Checkerboard {
+  Vec3f colour1{0.8f, 0.8f, 0.8f}, colour2{0.1f, 0.1f, 0.1f};
+  double size = 8;  ///< SIZE: fields over a texture's width
+};
+using Texture = std::variant<SolidColour, ImageTexture, Wood, Marble, Checkerboard>;
 
-/// Phong's model (appendix A.1.2), plus perfect mirror and glass.
+struct PhongLighting {};
+/// Ashikhmin and Shirley's anisotropic model (appendix A.1.2).
+struct AshikhminLighting {
+  double exponentU = 100, exponentV = 100;  ///< n_u, n_v: the larger, the narrower the highlight along u, v
+};
+using LightingModel = std::variant<PhongLighting, AshikhminLighting>;
+
+/// A lighting model (appendix A.1.2), plus perfect mirror and glass.
 struct Material {
   Texture diffuse;
+  LightingModel lighting;
   double diffuseWeight = 1;      ///< R_d
   Vec3f specular{0, 0, 0};       ///< R_s
-  double specularExponent = 50;  ///< f
+  double specularExponent = 50;  ///< f of Phong's model
   Vec3f ambient{1, 1, 1};        ///< R_a times the diffuse colour
   Vec3f emission{0, 0, 0};       ///< times the diffuse texture: a lit picture
   Vec3f reflection{0, 0, 0};     ///< perfect mirror share of an opaque surface
   bool glass = false;            ///< dielectric: exact Fresnel shares of reflection and refraction
   double refractiveIndex = 1.5;
+  double roughness = 0;       ///< alpha of GGX: slope of the glass surface's microscopic waves (path integrator)
   Vec3f absorption{0, 0, 0};  ///< [1/m] inside glass
   bool smooth = false;        ///< Phong shading: normals between vertices
   bool castsShadow = true;
@@ -54,6 +81,7 @@ struct PointLight {
 struct SunLight {
   Vec3d direction{0, -1, 0};  ///< the way the light travels
   Vec3f radiance{1, 1, 1};
+  double angleDegrees = 0.53;  ///< across; the path integrator draws the half-shadow that follows from it
 };
 /// The burning gas as a few point lights found in each frame's volume, so that fire lights the walls.
 struct FireLight {
@@ -83,13 +111,33 @@ struct VolumeSettings {
   double fuelWeight = 1;                      ///< how much a burning fuel particle counts, times its mass
   BlackbodyMap blackbody;
   double emission = 1;                  ///< times the blackbody colour
-  Vec3f smokeColour{.03f, .03f, .03f};  ///< what cold smoke scatters of the ambient light
+  Vec3f smokeColour{.03f, .03f, .03f};  ///< what smoke scatters of the light that meets it
+  double anisotropy = 0;                ///< mean cosine of the scattering angle (path integrator)
 };
+
+/// Light from far away: a picture of all directions.
+struct EnvironmentSettings {
+  std::optional<std::filesystem::path>
+      file;  ///< OpenEXR, PNG or JPEG, longitude across, latitude down; else background
+  double strength = 1;
+  double rotationDegrees = 0;  ///< about the y axis
+};
+
+/// How light is followed: rays to lights, mirrors and through glass (Whitted), or all ways that light takes.
+struct WhittedIntegrator {};
+struct PathIntegrator {
+  int maxBounces = 12;   ///< off surfaces and smoke
+  int rouletteFrom = 4;  ///< bounces after which faint paths end at random
+  int splits = 2;        ///< glass surfaces and mirrors from the camera on at which both ways are followed
+};
+using Integrator = std::variant<WhittedIntegrator, PathIntegrator>;
 
 struct RenderSettings {
   int width = 480, height = 360;
   int samples = 2;   ///< n of the n x n sub-pixels
   int maxDepth = 8;  ///< of reflection and refraction
+  Integrator integrator;
+  EnvironmentSettings environment;
   std::uint64_t seed = 1;
   Vec3f background{0.5f, 0.6f, 0.7f};
   Vec3f ambientLight{.1f, .1f, .1f};

@@ -11,20 +11,19 @@
 #include "render/dielectric.h"
 
 namespace brisance {
+
+Pose poseAfter(const FrameBody& body, double seconds) {
+  const double speed = length(body.angularVelocity);
+  const Vec3d position = body.pose.position + body.linearVelocity * seconds;
+  if (speed * seconds == 0) return {position, body.pose.orientation};
+  return {position, normalized(axisAngle(body.angularVelocity / speed, speed * seconds) * body.pose.orientation)};
+}
+
 namespace {
 
 /// Of the largest coordinate: some sixteen steps of a float, the error of a hit's place.
 constexpr float relativeResolution = 2e-6f;
 constexpr float smallestResolution = 1e-7f;  // [m]
-
-/// Where a body is `seconds` after its pose.
-Pose moved(const FrameBody& body, double seconds) {
-  const double speed = length(body.angularVelocity);
-  const double angle = speed * seconds;
-  if (angle == 0) return {body.pose.position + body.linearVelocity * seconds, body.pose.orientation};
-  return {body.pose.position + body.linearVelocity * seconds,
-          normalized(axisAngle(body.angularVelocity / speed, angle) * body.pose.orientation)};
-}
 
 /// Unit normals of the vertices, weighted by the area of the faces around them (Algorithm 8 in one pass over the
 /// faces).
@@ -109,6 +108,16 @@ T atCorners(const std::vector<T>& values, const Triangle& triangle, double u, do
   return values[triangle[0]] * (1 - u - v) + values[triangle[1]] * u + values[triangle[2]] * v;
 }
 
+/// The way u grows over a triangle (uVec of appendix A.1.2, up to its length); zero where no u v tells.
+Vec3d alongU(const TriangleMesh& mesh, const Triangle& t) {
+  if (mesh.uvs.empty()) return {};
+  const Vec2d a = mesh.uvs[t[1]] - mesh.uvs[t[0]], b = mesh.uvs[t[2]] - mesh.uvs[t[0]];
+  const double m = a.x * b.y - a.y * b.x;
+  const Vec3d along =
+      (mesh.vertices[t[1]] - mesh.vertices[t[0]]) * b.y - (mesh.vertices[t[2]] - mesh.vertices[t[0]]) * a.y;
+  return m < 0 ? -along : m > 0 ? along : Vec3d{};
+}
+
 /// The bodies by Embree's geometry number.
 struct DrawnBodies {
   const MaterialTable& materials;
@@ -128,6 +137,7 @@ struct DrawnBodies {
 struct ShadowQuery {
   RTCIntersectContext context;
   const DrawnBodies& bodies;
+  GlassShade glass;
   Vec3f passing{1, 1, 1};
   Vec3f opticalDepth{};  ///< sum of absorption times way inside: leaving distances minus entering ones
 };
@@ -141,7 +151,8 @@ void passGlass(const RTCFilterFunctionNArguments* query) {
   const RTCRay ray = rtcGetRayFromRayN(query->ray, query->N, 0);
   const RTCHit hit = rtcGetHitFromHitN(query->hit, query->N, 0);
   const Material& material = shadow.bodies.material(hit);
-  if (material.castsShadow && !material.glass) return;  // a hit: the light is blocked
+  const bool passable = material.glass && shadow.glass == GlassShade::passes;
+  if (material.castsShadow && !passable) return;  // a hit: the light is blocked
   query->valid[0] = 0;
   if (!material.castsShadow) return;
   shadow.passing *= 1 - fresnelReflectance(1, static_cast<float>(1 / material.refractiveIndex));
@@ -201,8 +212,8 @@ float SceneGeometry::Bodies::add(const FrameBody& body, double openTime) {
   float largest;
   if (blurred) {
     rtcSetGeometryTimeStepCount(geometry, 2);
-    largest = std::max(placeVertices(geometry, 0, *body.mesh, moved(body, -openTime / 2)),
-                       placeVertices(geometry, 1, *body.mesh, moved(body, openTime / 2)));
+    largest = std::max(placeVertices(geometry, 0, *body.mesh, poseAfter(body, -openTime / 2)),
+                       placeVertices(geometry, 1, *body.mesh, poseAfter(body, openTime / 2)));
   } else {
     largest = placeVertices(geometry, 0, *body.mesh, body.pose);
   }
@@ -245,17 +256,20 @@ bool SceneGeometry::closest(const Ray& ray, SurfaceHit& hit) const {
   hit.body = query.hit.geomID;
   hit.material = body.material(query.hit.primID);
   const double u = query.hit.u, v = query.hit.v;
-  hit.shadingNormal = bodies_->list.materials[hit.material].settings.smooth
+  const SurfaceMaterial& material = bodies_->list.materials[hit.material];
+  hit.shadingNormal = material.settings.smooth
                           ? Vec3f(normalized(body.rotation * atCorners(body.smoothNormals(), triangle, u, v)))
                           : hit.normal;
   const Vec2d uv = body.mesh->uvs.empty() ? Vec2d{} : atCorners(body.mesh->uvs, triangle, u, v);
-  hit.uv = {static_cast<float>(uv.x), static_cast<float>(uv.y)};
+  hit.texture.uv = {static_cast<float>(uv.x), static_cast<float>(uv.y)};
+  if (material.isSolidPattern()) hit.texture.inBody = Vec3f(atCorners(body.mesh->vertices, triangle, u, v));
+  if (material.isAnisotropic()) hit.alongU = Vec3f(body.rotation * alongU(*body.mesh, triangle));
   return true;
 }
 
-Vec3f SceneGeometry::lightPassing(const Ray& ray, float distance) const {
+Vec3f SceneGeometry::lightPassing(const Ray& ray, float distance, GlassShade glass) const {
   RTCRay query = rayHit(ray, distance).ray;
-  ShadowQuery shadow{{}, bodies_->list};
+  ShadowQuery shadow{{}, bodies_->list, glass};
   rtcOccluded1(bodies_->scene, prepared(shadow, bodies_->list.anyLetsLightPass ? passGlass : nullptr), &query);
   if (query.tfar < 0) return {};  // how Embree says that something is in the way
   return shadow.opticalDepth == Vec3f{} ? shadow.passing : shadow.passing * beerTransmittance(shadow.opticalDepth, 1);
@@ -263,7 +277,7 @@ Vec3f SceneGeometry::lightPassing(const Ray& ray, float distance) const {
 
 bool SceneGeometry::touchesSameGlass(const Ray& ray, const SurfaceHit& hit) const {
   Ray around = ray;
-  around.near = hit.distance - resolution_;
+  around.near = std::max(0.0f, hit.distance - resolution_);
   RTCRay query = rayHit(around, hit.distance + resolution_).ray;
   TouchQuery touch{{}, bodies_->list, hit, dot(ray.direction, hit.normal) > 0};
   rtcOccluded1(bodies_->scene, prepared(touch, findCounterpart), &query);

@@ -17,13 +17,20 @@ struct Ray {
 };
 
 struct SurfaceHit {
-  float distance = 0;   ///< [m]
-  Vec3f normal;         ///< of the triangle: unit, outward
-  Vec3f shadingNormal;  ///< between the vertices where the material is smooth, else `normal`: unit, outward
-  Vec2<float> uv;
+  float distance = 0;    ///< [m]
+  Vec3f normal;          ///< of the triangle: unit, outward
+  Vec3f shadingNormal;   ///< between the vertices where the material is smooth, else `normal`: unit, outward
+  TexturePlace texture;  ///< the place in the body only where the material is a pattern in space
+  Vec3f alongU;          ///< the way u grows, any length, only where the material is anisotropic
   std::uint16_t material = 0;
   std::uint32_t body = 0;
 };
+
+/// Whether a shadow falls behind glass.
+enum class GlassShade { passes, blocks };
+
+/// Where a body is `seconds` after its pose.
+Pose poseAfter(const FrameBody& body, double seconds);
 
 /// A bounding volume hierarchy (Embree) over transformed copies of all bodies; built anew for each frame.
 class SceneGeometry {
@@ -39,8 +46,8 @@ class SceneGeometry {
   bool closest(const Ray& ray, SurfaceHit& hit) const;
   /// The share of light that comes along the ray over `distance` [m]: 0 behind a surface that casts a shadow. Light
   /// passes glass straight (no caustics), is absorbed in it, and loses at each of its surfaces the reflection at normal
-  /// incidence.
-  Vec3f lightPassing(const Ray& ray, float distance) const;
+  /// incidence; or glass blocks light like any other body.
+  Vec3f lightPassing(const Ray& ray, float distance, GlassShade glass = GlassShade::passes) const;
   /// Whether at a hit on glass another body of the same glass touches it, so that there is no surface to see: the
   /// hidden faces between pieces that have not parted yet.
   bool touchesSameGlass(const Ray& ray, const SurfaceHit& hit) const;

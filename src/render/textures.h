@@ -16,11 +16,23 @@ class PictureTexture {
   explicit PictureTexture(Picture picture) : picture_(std::move(picture)) {}
   /// Bilinear between the centres of the pixels, in linear light.
   Vec3f at(double u, double v) const;
+  Vec3f mean() const;
 
  private:
   Vec3f texel(int column, int row) const;
   Picture picture_;
 };
+
+/// Where on a surface a texture is looked up.
+struct TexturePlace {
+  Vec2<float> uv;
+  Vec3f inBody;  ///< [m] in the body's own coordinates
+};
+
+// Patterns of appendix A.1.3.
+Vec3f patternColour(const Wood& wood, const TexturePlace& place);
+Vec3f patternColour(const Marble& marble, const TexturePlace& place);
+Vec3f patternColour(const Checkerboard& board, const TexturePlace& place);
 
 /// Textures by file, each read once.
 class TextureLibrary {

@@ -24,6 +24,14 @@ struct Travel {
   float share;  ///< of the pixel
 };
 
+/// A place on a surface, as light falls on it.
+struct LitPlace {
+  SurfaceScattering surface;
+  Axes axes;
+  Vec3f out;    ///< to the viewer, local
+  Vec3f place;  ///< [m], just before the surface
+};
+
 class Tracer {
  public:
   explicit Tracer(const RayWorld& world) : world_(world), resolution_(world.geometry.resolution()) {}
@@ -34,7 +42,7 @@ class Tracer {
   Vec3f opaqueLight(const Travel& travel, const SurfaceHit& hit) const;
   Vec3f glassLight(const Travel& travel, const SurfaceHit& hit) const;
   Vec3f beyondGlassSurface(const Travel& travel, const SurfaceHit& hit, const Vec3f& normal) const;
-  Vec3f lit(const PhongPoint& point, const Vec3f& place, float time, bool fireToo) const;
+  Vec3f lit(const LitPlace& lit, float time, bool fireToo) const;
   Vec3f next(const Travel& travel, const SurfaceHit& hit, const Vec3f& direction, float share) const;
   float gasTransmittance(const Ray& ray, float distance, const LightSource& light) const;
 
@@ -54,7 +62,7 @@ Vec3f Tracer::light(const Travel& travel) const {
   if (gas.transmittance == 0) return gas.light;
   Travel behind = travel;
   behind.share *= gas.transmittance;
-  return gas.light + (found ? surfaceLight(behind, hit) : world_.background) * gas.transmittance;
+  return gas.light + (found ? surfaceLight(behind, hit) : world_.background(travel.ray.direction)) * gas.transmittance;
 }
 
 Vec3f Tracer::surfaceLight(const Travel& travel, const SurfaceHit& hit) const {
@@ -63,7 +71,7 @@ Vec3f Tracer::surfaceLight(const Travel& travel, const SurfaceHit& hit) const {
 
 /// Follows a mirror or glass ray from a hit, unless it is too deep or carries too little to be seen.
 Vec3f Tracer::next(const Travel& travel, const SurfaceHit& hit, const Vec3f& direction, float share) const {
-  if (travel.depth >= world_.maxDepth || travel.share * share < negligibleShare) return world_.background;
+  if (travel.depth >= world_.maxDepth || travel.share * share < negligibleShare) return world_.background(direction);
   const float shifted = travel.phase + 0.618034f;  // the golden ratio spreads the phases of a family of rays evenly
   return light({{travel.ray.origin + travel.ray.direction * hit.distance, direction, resolution_, travel.ray.time},
                 shifted - std::floor(shifted),
@@ -71,18 +79,17 @@ Vec3f Tracer::next(const Travel& travel, const SurfaceHit& hit, const Vec3f& dir
                 travel.share * share});
 }
 
-/// Phong's model, seen from either side (pieces of fractured shells are open).
+/// The lighting model, seen from either side (pieces of fractured shells are open).
 Vec3f Tracer::opaqueLight(const Travel& travel, const SurfaceHit& hit) const {
   const SurfaceMaterial& material = world_.materials[hit.material];
   const Vec3f& direction = travel.ray.direction;
   const Vec3f face = dot(direction, hit.normal) > 0 ? -hit.normal : hit.normal;
   const Vec3f normal = dot(hit.shadingNormal, face) < 0 ? -hit.shadingNormal : hit.shadingNormal;
-  const Vec3f colour = material.diffuseColour(hit.uv);
+  const Vec3f colour = material.diffuseColour(hit.texture);
   const Vec3f place = travel.ray.origin + direction * hit.distance + face * resolution_;
-  const PhongPoint point{normal, -direction, colour * static_cast<float>(material.settings.diffuseWeight),
-                         material.settings.specular, static_cast<float>(material.settings.specularExponent)};
+  const Axes axes(normal, hit.alongU);
   Vec3f light = colour * (material.settings.ambient * world_.ambientLight + material.settings.emission) +
-                lit(point, place, travel.ray.time, true);
+                lit({material.opaque(hit.texture), axes, axes.toLocal(-direction), place}, travel.ray.time, true);
   const Vec3f& mirror = material.settings.reflection;
   if (mirror == Vec3f{}) return light;
   Vec3f mirrored = reflected(direction, normal);
@@ -90,15 +97,16 @@ Vec3f Tracer::opaqueLight(const Travel& travel, const SurfaceHit& hit) const {
   return light + mirror * next(travel, hit, mirrored, largest(mirror));
 }
 
-/// The direct lights by Phong's model.
-Vec3f Tracer::lit(const PhongPoint& point, const Vec3f& place, float time, bool fireToo) const {
+/// The direct lights. I_s is what a white diffuse surface returns: irradiance over pi.
+Vec3f Tracer::lit(const LitPlace& lit, float time, bool fireToo) const {
   Vec3f sum;
   for (const LightSource& source : world_.lights) {
     if (source.kind == LightSource::Kind::fire && !fireToo) continue;
-    const ArrivingLight arriving = source.at(place);
-    const Vec3f returned = phongShare(point, arriving.toLight) * arriving.intensity;
+    const ArrivingLight arriving = source.at(lit.place);
+    const Vec3f returned =
+        value(lit.surface, lit.out, lit.axes.toLocal(arriving.toLight)) * (static_cast<float>(pi) * arriving.intensity);
     if (largest(returned) < negligibleLight) continue;
-    const Ray shadowRay{place, arriving.toLight, resolution_, time};
+    const Ray shadowRay{lit.place, arriving.toLight, resolution_, time};
     const Vec3f passing = world_.geometry.lightPassing(shadowRay, arriving.distance);
     if (passing == Vec3f{}) continue;
     sum += returned * passing * gasTransmittance(shadowRay, arriving.distance, source);
@@ -142,9 +150,10 @@ Vec3f Tracer::beyondGlassSurface(const Travel& travel, const SurfaceHit& hit, co
   Vec3f light = next(travel, hit, reflected(direction, normal), mirrorShare) * mirrorShare;
   if (through) light += next(travel, hit, *through, 1 - mirrorShare) * (1 - mirrorShare);
   if (leaving || material.specular == Vec3f{}) return light;
-  const PhongPoint highlight{normal, -direction, {}, material.specular, static_cast<float>(material.specularExponent)};
+  const Phong highlight{{}, material.specular, static_cast<float>(material.specularExponent)};
+  const Axes axes(normal, {});
   const Vec3f place = travel.ray.origin + direction * hit.distance + normal * resolution_;
-  return light + lit(highlight, place, travel.ray.time, false);
+  return light + lit({highlight, axes, axes.toLocal(-direction), place}, travel.ray.time, false);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "render/environment.h"
 #include "render/gas_medium.h"
 #include "render/lights.h"
 #include "render/scene_geometry.h"
@@ -16,7 +17,8 @@ struct RayWorld {
   const MaterialTable& materials;
   const std::vector<LightSource>& lights;
   const GasMedium* gas;  ///< or none
-  Vec3f background, ambientLight;
+  const Environment& background;
+  Vec3f ambientLight;
   int maxDepth;
 };
 

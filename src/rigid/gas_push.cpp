@@ -43,12 +43,12 @@ MeanArea meanArea(const RigidBodies& bodies, double time) {
 }
 
 /// Force = wind - stiffness v and torque = twist - damping omega, about the centre of mass.
-struct Drag {
+struct SurfaceDrag {
   Vec3d wind, twist;
   Mat3 stiffness = identity(0), damping = identity(0);
 };
 
-Drag gather(const RigidBodies& bodies, std::size_t b, const MacVelocity& gas, const GasPush& push,
+SurfaceDrag gather(const RigidBodies& bodies, std::size_t b, const MacVelocity& gas, const Drag& push,
             const MeanArea& mean) {
   const Vec3i n = gas.cells();
   const double h = gas.u.cellSize;
@@ -58,7 +58,7 @@ Drag gather(const RigidBodies& bodies, std::size_t b, const MacVelocity& gas, co
       push.smallPieceFavour == 0 ? 1 : portableExp(push.smallPieceFavour * portableLog(mean.perBody / bodies.area[b]));
   const Mat3 rotation = rotationMatrix(bodies.orientation[b]);
   const Vec3d v = bodies.linearVelocity[b], omega = bodies.angularVelocity[b];
-  Drag drag;
+  SurfaceDrag drag;
   const auto act = [&](const SurfacePoint& point) {
     const Vec3d arm = rotation * point.arm, place = bodies.position[b] + arm;
     if (!box.contains(place)) return;
@@ -77,12 +77,12 @@ Drag gather(const RigidBodies& bodies, std::size_t b, const MacVelocity& gas, co
 }
 }  // namespace
 
-void pushBodies(RigidBodies& bodies, const MacVelocity& gas, const GasPush& push, double time, double dt) {
+void pushBodies(RigidBodies& bodies, const MacVelocity& gas, const Drag& push, double time, double dt) {
   const MeanArea mean = meanArea(bodies, time);
   parallelFor(0, static_cast<std::int64_t>(bodies.size()), 8, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t b = first; b < last; ++b) {
       if (!bodies.isFree(b, time)) continue;
-      const Drag drag = gather(bodies, b, gas, push, mean);
+      const SurfaceDrag drag = gather(bodies, b, gas, push, mean);
       const double mass = 1 / bodies.inverseMass[b];
       Vec3d& v = bodies.linearVelocity[b];
       v = inverse(identity(mass) + drag.stiffness * dt) * (v * mass + drag.wind * dt);

@@ -2,26 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "fluid/donor_sweep.h"
 #include "simulation/world.h"
 
 namespace brisance {
 namespace {
 
-// Bytes for each thing, from the fields that hold it (world, solver scratch, frame being written).
-constexpr double gasCellMemory = 200;    // state 57, pressure and advection scratch 90, capture and checkpoint
-constexpr double volumeCellMemory = 32;  // density and colour, and their copy while blurring
-constexpr double particleMemory = 200;   // nine fields, and the frame's copy
-constexpr double pixelMemory = 32;       // colour and weights in single precision, and the encoded picture
-constexpr double baseMemory = 200e6;     // the program, its libraries, textures
-constexpr double pieceBytes = 20e3;      // a shard's mesh of some hundred triangles, on disk and in memory
-constexpr double gasCellDisk = 24;       // three scalars and a vector, before compression
-constexpr double particleDisk = 33;      // position, velocity, mass, temperature, kind
-constexpr double posedPieceDisk = 100;   // pose and velocities, per frame
-constexpr double checkpointCellDisk = 57;
+// Bytes for each thing, from the fields that hold it, in single precision where nothing else is said.
+constexpr double field = 4;
+constexpr double stateMemory = 10 * field;      // velocity, pressure, temperature, soot, flame, and the three sources
+constexpr double solidMemory = 4 * field + 1;   // open shares, regions, what is inside
+constexpr double pressureMemory = 2 * field;    // the solver's field and its work
+constexpr double sweepMemory = 6 * field;       // where a donor-cell step puts the new fields
+constexpr double separateMemory = 12 * field;   // padded and new velocity and scalar, and a velocity of the whirls'
+constexpr double multigridMemory = 13 * field;  // six vectors and seven entries of a row, an eighth more in all levels
+constexpr double gradientMemory = 8 * field;    // four vectors in double precision
+constexpr double movingMemory = 20 * field;     // where moving bodies block gas: what faces and cells are, twice
+constexpr double depositMemory = field + 1;     // among solids: what is inside, and the share of a kernel in gas
+constexpr double writingMemory = 12 * field;    // the frame's velocity: bricks, leaves, packed, joined
+constexpr double volumeCellMemory = 32;         // density and colour, and their copy while blurring
+constexpr double particleMemory =
+    300;  // fields 83 and as much again to sort or to save, deposits 70, the frame and its file 66
+constexpr double pixelMemory = 32;         // colour and weights in single precision, and the encoded picture
+constexpr double baseMemory = 45e6;        // the program and its libraries
+constexpr double pieceBytes = 20e3;        // a shard's mesh of some hundred triangles, on disk and in memory
+constexpr double gasCellDisk = 24;         // three scalars and a vector, before compression
+constexpr double particleDisk = 33;        // position, velocity, mass, temperature, kind
+constexpr double posedPieceDisk = 100;     // pose and velocities, per frame
+constexpr double checkpointCellDisk = 28;  // velocity, pressure, temperature, soot, flame
 constexpr double checkpointParticleDisk = 83;
 constexpr double pixelDisk = 3 + 8;    // PNG, and OpenEXR in half precision, before compression
 constexpr double filmPixelDisk = 0.5;  // of the encoded film, at a good rate factor
@@ -30,12 +43,25 @@ std::int64_t clamped(double bytes) { return static_cast<std::int64_t>(std::min(b
 double countOf(const Vec3i& cells) { return static_cast<double>(cells.x) * cells.y * cells.z; }
 double gigabytes(std::int64_t bytes) { return static_cast<double>(bytes) / 1e9; }
 
-double memoryOf(const Scene& scene, const SceneEstimate& cost) {
+double gasCellMemory(const SimulationSettings& s) {
+  double bytes = stateMemory + solidMemory + writingMemory;
+  bytes += sweepsSuffice(s.fluid) ? sweepMemory : separateMemory;
+  if (std::holds_alternative<MultigridSolver>(s.fluid.pressure)) bytes += multigridMemory;
+  bytes += std::holds_alternative<ConjugateGradient>(s.fluid.pressure) ? gradientMemory : pressureMemory;
+  if (s.bodiesInGas == BodiesInGas::block) bytes += movingMemory;
+  const auto blocks = [](const BodySettings& body) { return body.blocksGas; };
+  if (std::any_of(s.bodies.begin(), s.bodies.end(), blocks)) bytes += depositMemory;
+  return bytes;
+}
+
+double simulatingMemory(const Scene& scene, const SceneEstimate& cost) {
+  return static_cast<double>(cost.cells) * gasCellMemory(scene.simulation) +
+         static_cast<double>(cost.particles) * particleMemory;
+}
+
+double drawingMemory(const Scene& scene, const SceneEstimate& cost) {
   const double pixels = static_cast<double>(scene.render.width) * scene.render.height;
-  const double simulating = static_cast<double>(cost.cells) * gasCellMemory;
-  const double drawing = static_cast<double>(cost.volumeCells) * volumeCellMemory + pixels * pixelMemory;
-  return baseMemory + std::max(simulating, drawing) + static_cast<double>(cost.particles) * particleMemory +
-         static_cast<double>(cost.pieces) * pieceBytes;
+  return static_cast<double>(cost.volumeCells) * volumeCellMemory + pixels * pixelMemory;
 }
 
 double diskOf(const Scene& scene, const SceneEstimate& cost) {
@@ -93,7 +119,10 @@ SceneEstimate estimate(const Scene& scene) {
   cost.bodies = static_cast<std::int64_t>(scene.simulation.bodies.size());
   for (const BodySettings& body : scene.simulation.bodies) cost.pieces += body.fracture.pieces;
   cost.particles = predictedParticles(scene.simulation);
-  cost.memory = clamped(memoryOf(scene, cost));
+  const double always = baseMemory + static_cast<double>(cost.pieces) * pieceBytes;
+  cost.simulating = clamped(always + simulatingMemory(scene, cost));
+  cost.drawing = clamped(always + drawingMemory(scene, cost));
+  cost.memory = std::max(cost.simulating, cost.drawing);
   cost.disk = clamped(diskOf(scene, cost));
   return cost;
 }
@@ -139,9 +168,9 @@ SceneCheck checkScene(const std::filesystem::path& file, const std::vector<std::
 std::string estimateText(const SceneEstimate& cost) {
   return fmt::format(
       "{} frames\n{} gas cells, {} volume cells\n{} bodies in {} pieces\n{} particles at most\n"
-      "{:.2f} GB of memory, {:.2f} GB of disk at most\n",
-      cost.frames, cost.cells, cost.volumeCells, cost.bodies, cost.pieces, cost.particles, gigabytes(cost.memory),
-      gigabytes(cost.disk));
+      "{:.2f} GB of memory to simulate, {:.2f} GB to draw, {:.2f} GB of disk at most\n",
+      cost.frames, cost.cells, cost.volumeCells, cost.bodies, cost.pieces, cost.particles, gigabytes(cost.simulating),
+      gigabytes(cost.drawing), gigabytes(cost.disk));
 }
 
 std::string checkJson(const SceneCheck& check) {
@@ -155,6 +184,8 @@ std::string checkJson(const SceneCheck& check) {
                  {"pieces", cost.pieces},
                  {"particles", cost.particles},
                  {"memory_bytes", cost.memory},
+                 {"simulating_bytes", cost.simulating},
+                 {"drawing_bytes", cost.drawing},
                  {"bytes", cost.disk}});
   }
   json["problems"] = check.problems;

@@ -16,10 +16,12 @@ struct SceneEstimate {
   std::int64_t cells = 0;        ///< of the gas
   std::int64_t volumeCells = 0;  ///< of the picture's fine volume
   std::int64_t bodies = 0;
-  std::int64_t pieces = 0;     ///< of all bodies
-  std::int64_t particles = 0;  ///< fuel and soot, at most
-  std::int64_t memory = 0;     ///< [bytes] at the peak
-  std::int64_t disk = 0;       ///< [bytes] of the whole run, at most
+  std::int64_t pieces = 0;      ///< of all bodies
+  std::int64_t particles = 0;   ///< fuel and soot, at most
+  std::int64_t simulating = 0;  ///< [bytes] of memory at the peak of the simulation
+  std::int64_t drawing = 0;     ///< [bytes] of memory at the peak of a picture
+  std::int64_t memory = 0;      ///< [bytes] the larger of the two
+  std::int64_t disk = 0;        ///< [bytes] of the whole run, at most
 };
 
 SceneEstimate estimate(const Scene& scene);

@@ -6,6 +6,9 @@ namespace {
 
 constexpr std::string_view lightNames[] = {"point", "sun", "fire"};
 constexpr std::string_view blackbodyNames[] = {"physical_blackbody", "tuned_blackbody"};
+constexpr std::string_view patternNames[] = {"none", "wood", "marble", "checkerboard"};
+constexpr std::string_view lightingNames[] = {"phong", "ashikhmin_shirley"};
+constexpr std::string_view integratorNames[] = {"whitted", "path"};
 constexpr double brightest = 1e6;  // keeps products of colours finite in single precision
 
 void describeView(KeyVisitor& v, CameraViewKeys& view) {
@@ -15,6 +18,9 @@ void describeView(KeyVisitor& v, CameraViewKeys& view) {
   visit(v, {"fov_degrees", "degrees", {0, 175, false}, "vertical field of view", {}, "40"}, view.fovDegrees);
   visit(v, {"focal_length_mm", "mm", above(0), "in place of fov_degrees", {}, "from fov_degrees"}, view.focalLengthMm);
   visit(v, {"sensor_height_mm", "mm", above(0), "that focal_length_mm refers to"}, view.sensorHeightMm);
+  visit(v, {"lens_radius", "m", atLeast(0), "of a thin lens: depth of field; 0 is a pinhole"}, view.key.lensRadius);
+  visit(v, {"focus_distance", "m", above(0), "along the view, where a lens draws sharply", {}, "that of look_at"},
+        view.focusDistance);
 }
 
 void describeCameraKey(KeyVisitor& v, CameraViewKeys& view) {
@@ -31,6 +37,8 @@ struct LightKeys {
   void operator()(KeyVisitor& v, SunLight& light) const {
     visit(v, {"direction", "", anyValue, "the way the light travels"}, light.direction);
     visit(v, {"radiance", "", between(0, brightest), "red, green, blue"}, light.radiance);
+    visit(v, {"angle_degrees", "degrees", between(0, 90), "across the sun: half-shadows of the path integrator"},
+          light.angleDegrees);
   }
   void operator()(KeyVisitor& v, FireLight& light) const {
     visit(v, {"strength", "", between(0, brightest), "1 is as bright as the fire is seen"}, light.strength);
@@ -65,11 +73,65 @@ void describeVolumeLook(KeyVisitor& v, VolumeSettings& volume) {
   visit(v, {"opacity", "1/m", atLeast(0), "per mapped density", {"tau", "5.1, 5.3"}}, volume.opacity);
   visit(v, {"fuel_weight", "", atLeast(0), "how much burning fuel counts, times its mass"}, volume.fuelWeight);
   visit(v, {"emission", "", between(0, brightest), "times the blackbody colour"}, volume.emission);
-  visit(v, {"smoke_colour", "", between(0, brightest), "what cold smoke scatters of the ambient light"},
+  visit(v, {"smoke_colour", "", between(0, brightest), "what smoke scatters of the light that meets it"},
         volume.smokeColour);
+  visit(v,
+        {"anisotropy", "", between(-0.99, 0.99), "mean cosine of scattering (Henyey and Greenstein), path integrator"},
+        volume.anisotropy);
   v.enter({"blackbody", "", anyValue, "how temperature becomes colour"}, true);
   visitAlternatives(v, blackbodyNames, volume.blackbody, BlackbodyKeys{});
   v.leave();
+}
+
+struct PatternKeys {
+  void operator()(KeyVisitor&, NoPattern&) const {}
+  void operator()(KeyVisitor& v, Wood& wood) const { describeSolid(v, wood); }
+  void operator()(KeyVisitor& v, Marble& marble) const { describeSolid(v, marble); }
+  void operator()(KeyVisitor& v, Checkerboard& board) const {
+    describeColours(v, board);
+    visit(v, {"size", "", between(1, 1e4), "SIZE: fields over u and over v from 0 to 1"}, board.size);
+  }
+
+ private:
+  template <class Pattern>
+  static void describeColours(KeyVisitor& v, Pattern& pattern) {
+    visit(v, {"colour_1", "", between(0, brightest), "scene-linear red, green, blue"}, pattern.colour1);
+    visit(v, {"colour_2", "", between(0, brightest), "scene-linear red, green, blue"}, pattern.colour2);
+  }
+  template <class Pattern>
+  static void describeSolid(KeyVisitor& v, Pattern& pattern) {
+    describeColours(v, pattern);
+    visit(v, {"unit", "m", above(0), "of the pattern: larger is coarser"}, pattern.unit);
+  }
+};
+
+struct LightingKeys {
+  void operator()(KeyVisitor&, PhongLighting&) const {}
+  void operator()(KeyVisitor& v, AshikhminLighting& model) const {
+    visit(v, {"exponent_u", "", between(0, 1e6), "n_u: the larger, the narrower the highlight along u"},
+          model.exponentU);
+    visit(v, {"exponent_v", "", between(0, 1e6), "n_v: likewise along v"}, model.exponentV);
+  }
+};
+
+struct IntegratorKeys {
+  void operator()(KeyVisitor&, WhittedIntegrator&) const {}
+  void operator()(KeyVisitor& v, PathIntegrator& path) const {
+    visit(v, {"max_bounces", "", between(0, 1000), "of light off surfaces and smoke"}, path.maxBounces);
+    visit(v, {"roulette_from", "", between(1, 1000), "bounces after which faint paths end at random"},
+          path.rouletteFrom);
+    visit(
+        v,
+        {"splits", "", between(0, 8), "mirrors and glass surfaces from the camera on at which both ways are followed"},
+        path.splits);
+  }
+};
+
+void describeEnvironment(KeyVisitor& v, EnvironmentSettings& environment) {
+  visit(v, {"file", "", anyValue, "OpenEXR, PNG or JPEG of all directions: longitude, latitude", {}, "background"},
+        environment.file);
+  visit(v, {"strength", "", between(0, brightest), "times the picture's light"}, environment.strength);
+  visit(v, {"rotation_degrees", "degrees", anyValue, "about the y axis"}, environment.rotationDegrees);
 }
 
 }  // namespace
@@ -81,6 +143,7 @@ void describeCamera(KeyVisitor& v, SceneDraft& draft) {
   CameraViewKeys fresh = draft.camera;  // a key says what changes; the rest is as in [camera]
   fresh.fovDegrees.reset();
   fresh.focalLengthMm.reset();
+  fresh.focusDistance.reset();
   visitArray(v, {"keys", "", anyValue, "where the camera is when; what a key does not say is as in [camera]"},
              draft.cameraKeys, fresh, describeCameraKey);
 }
@@ -94,14 +157,22 @@ void describeMaterial(KeyVisitor& v, MaterialKeys& keys) {
         keys.colour);
   visit(v, {"texture", "", anyValue, "PNG or JPEG in place of colour, relative to the scene file", {}, "none"},
         keys.texture);
-  visit(v, {"diffuse_weight", "", between(0, 1), "R_d of Phong's model"}, material.diffuseWeight);
-  visit(v, {"specular", "", between(0, 1), "R_s of Phong's model"}, material.specular);
+  v.enter({"pattern", "", anyValue, "in place of colour or texture"}, true);
+  visitAlternatives(v, patternNames, keys.pattern, PatternKeys{});
+  v.leave();
+  v.enter({"lighting", "", anyValue, "how the surface returns light"}, true);
+  visitAlternatives(v, lightingNames, material.lighting, LightingKeys{});
+  v.leave();
+  visit(v, {"diffuse_weight", "", between(0, 1), "R_d of the lighting model"}, material.diffuseWeight);
+  visit(v, {"specular", "", between(0, 1), "R_s of the lighting model"}, material.specular);
   visit(v, {"specular_exponent", "", between(0, 1e6), "f of Phong's model"}, material.specularExponent);
   visit(v, {"ambient", "", between(0, 1), "R_a of Phong's model, times the diffuse colour"}, material.ambient);
   visit(v, {"emission", "", between(0, brightest), "times the colour or texture"}, material.emission);
   visit(v, {"reflection", "", between(0, 1), "share that an opaque surface mirrors"}, material.reflection);
   visit(v, {"glass", "", anyValue, "dielectric: Fresnel's shares of reflection and refraction"}, material.glass);
   visit(v, {"refractive_index", "", between(1, 5), "of glass"}, material.refractiveIndex);
+  visit(v, {"roughness", "", between(0, 1), "of glass, path integrator: 0 is clear, 0.3 frosted (alpha of GGX)"},
+        material.roughness);
   visit(v, {"absorption", "1/m", between(0, brightest), "inside glass"}, material.absorption);
   visit(v, {"smooth", "", anyValue, "normals go smoothly between vertices"}, material.smooth);
   visit(v, {"casts_shadow", "", anyValue, "false lets light through"}, material.castsShadow);
@@ -114,10 +185,14 @@ void describeRender(KeyVisitor& v, SceneDraft& draft) {
   visit(v, {"width", "pixels", between(1, 16384), "of the picture"}, render.width);
   visit(v, {"height", "pixels", between(1, 16384), "of the picture"}, render.height);
   visit(v, {"samples", "", between(1, 64), "n of the n x n samples of a pixel"}, render.samples);
+  v.enter({"integrator", "", anyValue, "whitted: lights, mirrors, glass; path: all ways of light"}, true);
+  visitAlternatives(v, integratorNames, render.integrator, IntegratorKeys{});
+  v.leave();
   visit(v, {"max_depth", "", between(0, 64), "of reflection and refraction"}, render.maxDepth);
   visit(v, {"seed", "", atLeast(0), "of the samples' places", {}, "scene.seed"}, draft.renderSeed);
   visit(v, {"background", "", between(0, brightest), "red, green, blue beyond the scene"}, render.background);
   visit(v, {"ambient_light", "", between(0, brightest), "red, green, blue from everywhere"}, render.ambientLight);
+  visitTable(v, "environment", "light from far away", render.environment, describeEnvironment);
   visit(v, {"exposure_stops", "", between(-30, 30), "pictures are brighter by 2 to this"}, render.exposureStops);
   visit(v, {"write_exr", "", anyValue, "also the unclipped picture, as OpenEXR"}, render.writeExr);
   visitTable(v, "volume", "the gas, drawn from its particles", draft, [](KeyVisitor& inner, SceneDraft& whole) {

@@ -28,6 +28,25 @@ void checkFaces(const Scene& scene, const Places& places) {
                   "(or set gas.remove_mean_source = true)");
 }
 
+void checkMotion(const Scene& scene, const Places& places) {
+  constexpr const char* names[] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
+  const FluidSettings& gas = scene.simulation.fluid;
+  for (std::size_t face = 0; face < gas.faces.size(); ++face) {
+    const Vec3d& wall = gas.wallVelocity[face];
+    const std::string path = fmt::format("gas.wall_velocity.{}", names[face]);
+    if (!(wall == Vec3d{}) && gas.faces[face] != FaceKind::noSlip)
+      places.refuse(path, "must be zero: this face is not no_slip");
+    if (wall[static_cast<int>(face) / 2] != 0)
+      places.refuse(path, fmt::format("must lie in the face, got {} [m/s]", shown(wall)));
+  }
+  for (std::size_t i = 0; i < gas.stirring.size(); ++i)
+    if (length(gas.stirring[i].axis) == 0) places.refuse(fmt::format("gas.stirring.{}.axis", i), "must not be zero");
+  constexpr double mostCourant = 1;  // beyond which steps through fluxes are unstable
+  if (gas.courant > mostCourant && !std::holds_alternative<SemiLagrangian>(gas.advection))
+    places.refuse("gas.courant",
+                  fmt::format("must be at most 1 unless gas.advection is semi_lagrangian, got {:g}", gas.courant));
+}
+
 void checkTemperatures(const Scene& scene, const Places& places) {
   const FluidSettings& gas = scene.simulation.fluid;
   if (gas.maximumTemperature <= gas.ambientTemperature)
@@ -192,10 +211,15 @@ void collectInputs(Scene& scene) {
     if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) add(mesh->file);
   for (const auto& [name, material] : scene.render.materials)
     if (const auto* image = std::get_if<ImageTexture>(&material.diffuse)) add(image->file);
+  if (scene.render.environment.file) add(*scene.render.environment.file);
 }
 
 void checkTogether(const Scene& scene, const Places& places) {
+  const SimulationSettings& s = scene.simulation;
+  if (std::holds_alternative<Pressure>(s.rigid.push) && s.bodiesInGas == BodiesInGas::pass)
+    places.refuse("rigid.push", "pressure pushes only what blocks the gas: set gas.bodies = \"block\"");
   checkFaces(scene, places);
+  checkMotion(scene, places);
   checkTemperatures(scene, places);
   const std::vector<Charge>& charges = scene.simulation.particles.charges;
   for (std::size_t i = 0; i < charges.size(); ++i)

@@ -121,6 +121,7 @@ void resolveCamera(const SceneDraft& draft, Scene& scene, const Places& places) 
     checkView(view, path, places);
     keys.push_back(view.key);
     keys.back().fovDegrees = fieldOfView(view, fov);
+    keys.back().focusDistance = view.focusDistance.value_or(length(view.key.lookAt - view.key.position));
   };
   if (draft.cameraKeys.empty()) return add(draft.camera, draft.camera.key.fovDegrees, "camera");
   const double fov = fieldOfView(draft.camera, draft.camera.key.fovDegrees);
@@ -168,6 +169,32 @@ void resolveBodies(const SceneDraft& draft, Scene& scene, const Places& places) 
   }
 }
 
+struct PatternTexture {
+  Texture& diffuse;
+  void operator()(const NoPattern&) const {}
+  template <class Kind>
+  void operator()(const Kind& pattern) const {
+    diffuse = pattern;
+  }
+};
+
+void usePattern(const MaterialKeys& keys, Material& material, const std::string& path, const Places& places) {
+  if (std::holds_alternative<NoPattern>(keys.pattern)) return;
+  if (keys.colour || keys.texture) places.refuse(path + ".pattern", "must not stand beside colour or texture");
+  std::visit(PatternTexture{material.diffuse}, keys.pattern);
+}
+
+/// The pattern that a texture is, if any.
+struct PatternOf {
+  template <class Other>
+  Pattern operator()(const Other&) const {
+    return NoPattern{};
+  }
+  Pattern operator()(const Wood& wood) const { return wood; }
+  Pattern operator()(const Marble& marble) const { return marble; }
+  Pattern operator()(const Checkerboard& board) const { return board; }
+};
+
 void resolveMaterials(const SceneDraft& draft, Scene& scene, const Places& places) {
   scene.render.materials.emplace(plainMaterial, Material{});
   std::set<std::string> names;
@@ -180,6 +207,7 @@ void resolveMaterials(const SceneDraft& draft, Scene& scene, const Places& place
     Material material = keys.material;
     if (keys.colour) material.diffuse = SolidColour{*keys.colour};
     if (keys.texture) material.diffuse = ImageTexture{*keys.texture};
+    usePattern(keys, material, path, places);
     scene.render.materials[keys.name] = material;
   }
 }
@@ -200,7 +228,7 @@ BodyKeys keysOf(const BodySettings& body) {
 }
 
 MaterialKeys keysOf(const std::string& name, const Material& material) {
-  MaterialKeys keys{name, material, {}, {}};
+  MaterialKeys keys{name, material, {}, {}, std::visit(PatternOf{}, material.diffuse)};
   if (const auto* colour = std::get_if<SolidColour>(&material.diffuse)) keys.colour = colour->colour;
   if (const auto* image = std::get_if<ImageTexture>(&material.diffuse)) keys.texture = image->file;
   return keys;
@@ -210,6 +238,7 @@ CameraViewKeys keysOf(const CameraKey& key) {
   CameraViewKeys view;
   view.key = key;
   view.fovDegrees = key.fovDegrees;
+  view.focusDistance = key.focusDistance;
   return view;
 }
 

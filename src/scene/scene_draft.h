@@ -22,7 +22,8 @@ struct LatticeKeys {
 struct CameraViewKeys {
   CameraKey key;
   std::optional<double> fovDegrees, focalLengthMm;
-  double sensorHeightMm = 24;  ///< of a full-frame camera
+  std::optional<double> focusDistance;  ///< [m]
+  double sensorHeightMm = 24;           ///< of a full-frame camera
 };
 
 /// The material of bodies that name none; scenes may declare their own under this name.
@@ -37,11 +38,15 @@ struct BodyKeys {
   std::optional<bool> moves;
 };
 
+struct NoPattern {};
+using Pattern = std::variant<NoPattern, Wood, Marble, Checkerboard>;
+
 struct MaterialKeys {
   std::string name;
   Material material;
   std::optional<Vec3f> colour;
   std::optional<std::filesystem::path> texture;
+  Pattern pattern;
 };
 
 enum class Quality { none, draft, final };

@@ -48,6 +48,7 @@ Scene withInputs(Scene scene, const std::map<std::filesystem::path, std::filesys
     if (auto* mesh = std::get_if<MeshShape>(&body.shape)) mesh->file = movedPath(places, mesh->file);
   for (auto& [name, material] : scene.render.materials)
     if (auto* image = std::get_if<ImageTexture>(&material.diffuse)) image->file = movedPath(places, image->file);
+  if (auto& file = scene.render.environment.file) file = movedPath(places, *file);
   for (std::filesystem::path& input : scene.inputs) input = movedPath(places, input);
   return scene;
 }

@@ -102,8 +102,11 @@ class Reader : public KeyVisitor {
     const SceneNode* node = take(key);
     if (node != nullptr && node->kind != Kind::table && !(typeAlone && node->kind == Kind::text))
       refuse(key, *node, typeAlone ? "must be a type or a table with a type" : "must be a table");
-    levels_.push_back(
-        {node == nullptr ? &nothing_ : node, pathOf(key.name), {}, node == nullptr ? place() : node->place});
+    levels_.push_back({node == nullptr ? &nothing_ : node,
+                       pathOf(key.name),
+                       {},
+                       node == nullptr ? place() : node->place,
+                       *key.fallback != 0});
   }
   void leave() override {
     refuseUnknownKeys();
@@ -132,7 +135,7 @@ class Reader : public KeyVisitor {
     const Level& level = levels_.back();
     Key type{"type", "", anyValue, "which kind"};
     if (level.node->kind == Kind::text) return {indexOf(type, *level.node, names)};
-    type.required = names.size() > 1 && level.node != &nothing_;
+    type.required = names.size() > 1 && level.node != &nothing_ && !level.typeMayMiss;
     if (const SceneNode* node = take(type)) return {indexOf(type, *node, names)};
     return {current};
   }
@@ -152,6 +155,7 @@ class Reader : public KeyVisitor {
     std::string path;
     std::vector<std::string> known;  ///< names asked for so far
     std::string place;
+    bool typeMayMiss = false;  ///< the key says what holds then
   };
 
   std::string pathOf(const std::string& name) const {

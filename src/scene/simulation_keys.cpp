@@ -8,8 +8,10 @@ namespace {
 
 constexpr std::string_view faceNames[] = {"open", "no_slip", "free_slip", "periodic"};
 constexpr const char* faceKeys[] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
-constexpr std::string_view advectionNames[] = {"donor_cell"};
+constexpr std::string_view advectionNames[] = {"donor_cell", "maccormack", "semi_lagrangian"};
 constexpr std::string_view pressureNames[] = {"auto", "fast_poisson", "multigrid", "conjugate_gradient"};
+constexpr std::string_view pushNames[] = {"drag", "pressure"};
+constexpr std::string_view bodiesInGasNames[] = {"pass", "block"};
 constexpr std::string_view quadratureNames[] = {"area_quadrature", "vertex_sum"};
 constexpr std::string_view shapeNames[] = {"sphere", "box", "rectangle", "mesh", "pane"};
 constexpr std::string_view outlineNames[] = {"rectangle", "disc", "polygon"};
@@ -32,6 +34,26 @@ void describeFaces(KeyVisitor& v, Faces& faces) {
 
 void describeAdvection(KeyVisitor& v, DonorCell& scheme) {
   visit(v, {"upwind_weight", "", between(0, 1), "0 is central, 1 upwind differences"}, scheme.upwindWeight);
+}
+
+void describeAdvection(KeyVisitor& v, MacCormack& scheme) {
+  visit(v, {"clamped", "", anyValue, "to the values of the cell and its neighbours, so that nothing overshoots"},
+        scheme.clamped);
+}
+void describeAdvection(KeyVisitor&, SemiLagrangian&) {}
+
+void describeWallVelocity(KeyVisitor& v, std::array<Vec3d, 6>& velocity) {
+  for (std::size_t i = 0; i < velocity.size(); ++i)
+    visit(v, {faceKeys[i], "m/s", anyValue, "of a no_slip face, along itself"}, velocity[i]);
+}
+
+void describeStirring(KeyVisitor& v, Stirring& stirring) {
+  visit(v, {"centre", "m", anyValue, "of the cylinder of gas that is kept turning"}, stirring.centre);
+  visit(v, {"axis", "", anyValue, "of rotation, counter-clockwise seen from its tip"}, stirring.axis);
+  visit(v, {"radius", "m", above(0), "of the cylinder"}, stirring.radius);
+  visit(v, {"length", "m", above(0), "of the cylinder, along the axis", {}, "through the whole box"}, stirring.length);
+  visit(v, {"angular_speed", "rad/s", anyValue, "at which it turns; negative: the other way"}, stirring.angularSpeed);
+  visit(v, {"relaxation", "s", above(0), "in which its gas comes up to speed to 1/e"}, stirring.relaxation);
 }
 
 constexpr const char* giveUp = "after which it gives up and says so";
@@ -69,6 +91,7 @@ void describeGasPhysics(KeyVisitor& v, FluidSettings& gas) {
   visit(v, {"maximum_temperature", "K", above(0), "scale of the cooling term, not a cap", {"T_max", "2.2, 5.1, 5.3"}},
         gas.maximumTemperature);
   visit(v, {"heat_capacity", "J/(m3 K)", above(0), "of a volume of gas"}, gas.heatCapacity);
+  visit(v, {"density", "kg/m3", above(0), "of the gas whose pressure pushes bodies (rigid.push)"}, gas.density);
   visit(v, {"force", "m/s2", anyValue, "on all gas alike", {"g_x, g_y, g_z", "2.2"}}, gas.force);
   visit(v, {"buoyancy", "m/(s2 K)", atLeast(0), "upward acceleration per kelvin above ambient"}, gas.buoyancy);
   visit(v, {"vorticity_confinement", "", atLeast(0), "how much of the whirls that the grid damps is given back"},
@@ -140,6 +163,8 @@ void describeCharge(KeyVisitor& v, Charge& charge) {
 struct ShapeKeys {
   void operator()(KeyVisitor& v, SphereShape& sphere) const {
     visit(v, {"radius", "m", above(0), "of the sphere"}, sphere.radius);
+    visit(v, {"segments", "", between(8, 1024), "around the equator: 128 leave no corners that are seen"},
+          sphere.segments);
   }
   void operator()(KeyVisitor& v, BoxShape& box) const {
     visit(v, {"size", "m", above(0), "along x, y, z"}, box.size);
@@ -252,6 +277,18 @@ void describeMethod(KeyVisitor& v, Voronoi& method) {
   visit(v, {"crowding", "", between(0, 10), "how much smaller"}, method.crowding);
 }
 
+void describePush(KeyVisitor& v, Drag& push) {
+  visit(v, {"force_constant", "kg/m3", atLeast(0), "force per area = this |dv| dv", {"F_c", "5.1, 5.3"}},
+        push.forceConstant);
+  visitType(v, {"quadrature", "", anyValue, "vertex_sum is the thesis' choice: finer meshes are pushed harder"},
+            quadratureNames, push.quadrature);
+  visit(v, {"parallel_only", "", anyValue, "the thesis' choice: only the force along the arm accelerates"},
+        push.parallelOnly);
+  visit(v, {"small_piece_favour", "", between(0, 10), "force times (mean area / area) to this power"},
+        push.smallPieceFavour);
+}
+void describePush(KeyVisitor&, Pressure&) {}
+
 void describeFracture(KeyVisitor& v, FractureSettings& fracture) {
   v.enter({"method", "", anyValue, "how pieces are chosen"}, true);
   visitAlternatives(v, fractureMethodNames, fracture.method,
@@ -276,16 +313,24 @@ void describeGas(KeyVisitor& v, SceneDraft& draft) {
   FluidSettings& gas = draft.scene.simulation.fluid;
   describeLattice(v, draft.gas, {"nx, ny, nz", "5.1, 5.3"});
   visitTable(v, "faces", "what the faces of the box are", gas.faces, describeFaces);
+  visitTable(v, "wall_velocity", "of faces that are no_slip walls", gas.wallVelocity, describeWallVelocity);
+  visitChoice(v,
+              {"bodies", "", anyValue,
+               "bodies that move: gas passes through them, as in the thesis, or they block and carry it"},
+              bodiesInGasNames, draft.scene.simulation.bodiesInGas);
   visit(v, {"remove_mean_source", "", anyValue, "in a sealed space: let the gas that has no way out vanish"},
         gas.removeMeanSource);
   v.enter({"advection", "", anyValue, "how the flow carries things"}, true);
-  visitAlternatives(v, advectionNames, gas.advection, describeAdvection);
+  visitAlternatives(v, advectionNames, gas.advection,
+                    [](KeyVisitor& inner, auto& scheme) { describeAdvection(inner, scheme); });
   v.leave();
   v.enter({"pressure", "", anyValue, "how the pressure is solved for"}, true);
   visitAlternatives(v, pressureNames, gas.pressure,
                     [](KeyVisitor& inner, auto& solver) { describePressure(inner, solver); });
   v.leave();
   describeGasPhysics(v, gas);
+  visitArray(v, {"stirring", "", anyValue, "cylinders of gas that are kept turning"}, gas.stirring, Stirring{},
+             describeStirring);
   visit(v, {"courant", "", {0.01, 10}, "cells that the gas may cross in one sub-step"}, gas.courant);
   visit(v, {"max_substeps", "", between(1, 1e6), "per frame, beyond which the run stops as unstable"}, gas.maxSubsteps);
 }
@@ -299,16 +344,11 @@ void describeExplosion(KeyVisitor& v, ParticleSettings& particles) {
 
 void describeRigid(KeyVisitor& v, RigidSettings& rigid) {
   visit(v, {"gravity", "m/s2", anyValue, "on bodies"}, rigid.gravity);
-  visitTable(v, "push", "how gas pushes bodies", rigid.push, [](KeyVisitor& inner, GasPush& push) {
-    visit(inner, {"force_constant", "kg/m3", atLeast(0), "force per area = this |dv| dv", {"F_c", "5.1, 5.3"}},
-          push.forceConstant);
-    visitType(inner, {"quadrature", "", anyValue, "vertex_sum is the thesis' choice: finer meshes are pushed harder"},
-              quadratureNames, push.quadrature);
-    visit(inner, {"parallel_only", "", anyValue, "the thesis' choice: only the force along the arm accelerates"},
-          push.parallelOnly);
-    visit(inner, {"small_piece_favour", "", between(0, 10), "force times (mean area / area) to this power"},
-          push.smallPieceFavour);
-  });
+  Key push{"push", "", anyValue, "how gas pushes bodies"};
+  push.fallback = "drag";
+  v.enter(push, true);
+  visitAlternatives(v, pushNames, rigid.push, [](KeyVisitor& inner, auto& kind) { describePush(inner, kind); });
+  v.leave();
 }
 
 void describeBody(KeyVisitor& v, BodyKeys& keys) {

@@ -44,6 +44,55 @@ void carryParticles(WorldState& world, const SimulationSettings& settings, doubl
   ignite(world.particles, settings.particles.burning);
 }
 
+namespace {
+/// Numbers of the bodies that may move, in the order of SolidStamp::bodies.
+std::vector<std::size_t> movingBodies(const WorldState& world) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t b = 0; b < world.bodies.size(); ++b)
+    if (world.looks[b].moves) numbers.push_back(b);
+  return numbers;
+}
+}  // namespace
+
+void releaseBodies(WorldState& world, const SimulationSettings& settings) {
+  if (!std::holds_alternative<Pressure>(settings.rigid.push)) return;
+  const std::vector<std::size_t> numbers = movingBodies(world);
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    const std::size_t b = numbers[n];
+    if (!world.bodies.isFree(b, world.time)) continue;
+    MovingSolid& solid = world.gas.solid.bodies[n];
+    solid.inverseMass = world.bodies.inverseMass[b];
+    solid.inverseInertia = inverse(worldInertia(world.bodies.inertia[b], world.bodies.orientation[b]));
+  }
+}
+
+void takePush(WorldState& world) {
+  const std::vector<std::size_t> numbers = movingBodies(world);
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    const MovingSolid& solid = world.gas.solid.bodies[n];
+    if (solid.inverseMass == 0) continue;
+    world.bodies.linearVelocity[numbers[n]] = solid.velocity;
+    world.bodies.angularVelocity[numbers[n]] = solid.angularVelocity;
+  }
+}
+
+void blockGas(WorldState& world, const SimulationSettings& settings, bool anew) {
+  const RigidBodies& b = world.bodies;
+  std::vector<MovingSolid> solids;
+  for (const std::size_t n : movingBodies(world)) {
+    MovingSolid solid;
+    solid.mesh = b.mesh[n];
+    solid.pose = {b.position[n], b.orientation[n]};
+    solid.velocity = b.linearVelocity[n];
+    solid.angularVelocity = b.angularVelocity[n];
+    solids.push_back(solid);
+  }
+  if (anew)
+    world.stamper->stampMoving(solids, world.gas.solid);
+  else
+    moveSolids(world.gas, solids, settings.fluid, *world.stamper);
+}
+
 double expectedSource(const WorldState& world, const SimulationSettings& settings) {
   const std::size_t burning = countBurning(world.particles);
   if (burning == 0) return 0;

@@ -9,6 +9,12 @@ namespace brisance {
 void burnIntoGas(WorldState& world, const SimulationSettings& settings, double dt);
 /// The gas moves and heats particles.
 void carryParticles(WorldState& world, const SimulationSettings& settings, double dt);
+/// Lets pressure move the bodies that are free now, in the gas' next step.
+void releaseBodies(WorldState& world, const SimulationSettings& settings);
+/// Bodies have the velocities that the gas' pressure gave them.
+void takePush(WorldState& world);
+/// Puts moving bodies into the gas where they are now. `anew`: the gas' velocity is already that of these places.
+void blockGas(WorldState& world, const SimulationSettings& settings, bool anew);
 /// The most that the source may reach in the next sub-step [1/s].
 double expectedSource(const WorldState& world, const SimulationSettings& settings);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double surfaceThickness = 0.01;
 
 FracturedBody breakShape(const SphereShape& sphere, const FractureSettings& fracture, std::uint64_t) {
-  return fractureMesh(sphereMesh(sphere.radius), fracture, surfaceThickness);
+  return fractureMesh(sphereMesh(sphere.radius, sphere.segments), fracture, surfaceThickness);
 }
 FracturedBody breakShape(const BoxShape& box, const FractureSettings& fracture, std::uint64_t) {
   return fractureMesh(boxMesh(box.size, true, box.uvRepeat), fracture, surfaceThickness);

@@ -1,7 +1,7 @@
 #include "simulation/simulate.h"
 
+#include "base/memory.h"
 #include "base/stopwatch.h"
-
 #include "frame/gltf_export.h"
 #include "simulation/world_state.h"
 
@@ -44,6 +44,20 @@ void saveCheckpoint(RunDirectory& run, const World& world, std::size_t keep) {
   if (!names.empty()) run.remove(names);
 }
 
+/// One frame; where it fails, with the name of what is left to go back to.
+void advanceFrom(const RunDirectory& run, World& world) {
+  try {
+    world.advance();
+  } catch (const Error& error) {
+    if (error.code != ExitCode::unstable) throw;
+    const std::vector<std::string> names = checkpoints(run);
+    throw Error(error.code,
+                fmt::format("{}; {}", error.what(),
+                            names.empty() ? "there is no checkpoint yet"
+                                          : "last good checkpoint: " + (run.path() / names.back()).string()));
+  }
+}
+
 void summarise(const World& world, SimulationSummary& summary) {
   const RunTotals& totals = world.totals();
   summary.volume = totals.volume;
@@ -56,9 +70,12 @@ void summarise(const World& world, SimulationSummary& summary) {
 /// A frame's files, with the seconds it took.
 void writeFrame(RunDirectory& run, const World& world, SimulationSummary& summary) {
   Stopwatch watch;
-  const Frame frame = world.capture();
-  run.addFrame(frame);
-  for (const auto& [stage, seconds] : frame.report.stageSeconds) summary.stageSeconds[stage] += seconds;
+  {
+    const Frame frame = world.capture();
+    run.addFrame(frame);
+    for (const auto& [stage, seconds] : frame.report.stageSeconds) summary.stageSeconds[stage] += seconds;
+  }
+  releaseFreedMemory();
   summary.stageSeconds["write"] += watch.lap();
 }
 }  // namespace
@@ -81,7 +98,7 @@ SimulationSummary simulate(const SimulationSettings& settings, RunDirectory& run
       summary.interrupted = true;
       break;
     }
-    world.advance();
+    advanceFrom(run, world);
     writeFrame(run, world, summary);
     if (world.frameIndex() % settings.checkpointEvery == 0 && world.frameIndex() < last)
       saveCheckpoint(run, world, whileRunning);

@@ -16,6 +16,7 @@ namespace brisance {
 
 struct SphereShape {
   double radius = 0.5;  ///< [m]
+  int segments = 32;    ///< around the equator
 };
 struct BoxShape {
   Vec3d size{1, 1, 1};  ///< [m]
@@ -57,6 +58,9 @@ struct BodySettings {
   double temperature = 300;  ///< [K]
 };
 
+/// pass: gas goes through bodies that move, as in the thesis. block: they stop it, and carry it.
+enum class BodiesInGas { pass, block };
+
 struct SimulationSettings {
   std::uint64_t seed = 1;
   int frames = 100;
@@ -65,6 +69,7 @@ struct SimulationSettings {
   FluidSettings fluid;
   ParticleSettings particles;
   RigidSettings rigid;
+  BodiesInGas bodiesInGas = BodiesInGas::pass;
   std::vector<BodySettings> bodies;
 };
 

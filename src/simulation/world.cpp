@@ -37,28 +37,42 @@ void record(const FluidReport& step, StepReport& report) {
   report.heat += step.heat;
 }
 
-/// burn; stepFluid; stepParticles; pushBodies; stepBodies.
+/// burn; stepFluid; stepParticles; pushBodies; stepBodies; blockGas.
 void substep(WorldState& world, const SimulationSettings& s, double dt) {
   StepReport& report = world.report;
+  const bool block = s.bodiesInGas == BodiesInGas::block;
   timed(report, "burn", [&] { burnIntoGas(world, s, dt); });
+  if (block) releaseBodies(world, s);
   timed(report, "gas",
         [&] { record(stepFluid(world.gas, s.fluid, s.particles.burning.sootPerMass, dt, world.scratch), report); });
   timed(report, "particles", [&] { carryParticles(world, s, dt); });
   timed(report, "bodies", [&] {
-    pushBodies(world.bodies, world.gas.velocity, s.rigid.push, world.time, dt);
+    if (const auto* drag = std::get_if<Drag>(&s.rigid.push))
+      pushBodies(world.bodies, world.gas.velocity, *drag, world.time, dt);
+    else
+      takePush(world);
     stepBodies(world.bodies, s.rigid, world.time, dt);
   });
+  if (block) timed(report, "solids", [&] { blockGas(world, s, false); });
   world.time += dt;
   emitFuel(world.particles, s.particles, world.time, s.fluid.ambientTemperature, s.seed, world.emitted);
 }
 
+std::string findNotFinite(const RigidBodies& bodies) {
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (!isFinite(bodies.position[b]) || !isFinite(bodies.linearVelocity[b]) || !isFinite(bodies.angularVelocity[b]))
+      return fmt::format("motion of body {}", bodies.name[b]);
+  return {};
+}
+
 void refuseBrokenState(const WorldState& world, const SimulationSettings& settings) {
-  const std::string place = findNotFinite(world.gas);
+  std::string place = findNotFinite(world.gas);
+  if (place.empty()) place = findNotFinite(world.bodies);
   if (!place.empty())
     throw Error(ExitCode::unstable,
-                fmt::format("frame {}, time {:.4g} s: {} is not a finite number: lower gas.courant or the "
-                            "explosion's heat and gas",
-                            world.frame + 1, world.time, place));
+                fmt::format("frame {}, sub-step {}, time {:.4g} s: {} is not a finite number: lower gas.courant or "
+                            "the explosion's heat and gas",
+                            world.frame + 1, world.report.substeps, world.time, place));
   if (!world.report.pressure.converged)
     throw Error(ExitCode::unstable,
                 fmt::format("frame {}, time {:.4g} s: pressure reached a residual of {:.2g} only: raise "
@@ -82,7 +96,12 @@ void addToTotals(const StepReport& report, RunTotals& totals) {
 
 World::World(SimulationSettings settings) : settings_(std::move(settings)), state_(std::make_unique<WorldState>()) {
   const std::vector<MovingSolid> solids = makeBodies(settings_, *state_);
-  state_->gas = makeFluid(settings_.fluid, stampSolids(settings_.fluid, solids), settings_.seed);
+  SolidStamper stamper(settings_.fluid, solids);
+  state_->gas = makeFluid(settings_.fluid, stamper.fixed(), settings_.seed);
+  if (settings_.bodiesInGas == BodiesInGas::block) {
+    state_->stamper = std::move(stamper);
+    blockGas(*state_, settings_, false);
+  }
   emitFuel(state_->particles, settings_.particles, 0, settings_.fluid.ambientTemperature, settings_.seed,
            state_->emitted);
 }
@@ -111,7 +130,10 @@ Frame World::capture() const { return captureFrame(*state_, settings_); }
 int World::frameIndex() const { return state_->frame; }
 const RunTotals& World::totals() const { return state_->totals; }
 std::string World::checkpoint() const { return writeCheckpoint(*state_); }
-void World::restore(const std::string& bytes, const std::string& fileName) { readCheckpoint(bytes, fileName, *state_); }
+void World::restore(const std::string& bytes, const std::string& fileName) {
+  readCheckpoint(bytes, fileName, *state_);
+  if (state_->stamper) blockGas(*state_, settings_, true);
+}
 
 std::int64_t predictedParticles(const SimulationSettings& settings) {
   double count = 0;

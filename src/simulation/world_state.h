@@ -1,7 +1,10 @@
 // All solvers' state at a moment.
 #pragma once
 
+#include <optional>
+
 #include "fluid/fluid_step.h"
+#include "fluid/moving_solids.h"
 #include "particles/deposit.h"
 #include "particles/particle_order.h"
 #include "particles/particle_set.h"
@@ -33,6 +36,7 @@ struct WorldState {
   ParticleSet particles;
   std::vector<std::uint64_t> emitted;  ///< per charge
   RigidBodies bodies;
+  std::optional<SolidStamper> stamper;  ///< where moving bodies block the gas
   std::vector<BodyLook> looks;
   RunTotals totals;
   StepReport report;  ///< of the last frame

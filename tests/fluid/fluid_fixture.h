@@ -31,6 +31,13 @@ void setComponent(Grid3<float>& grid, const Speed& speed) {
       for (int i = 0; i < grid.size.x; ++i) grid(i, j, k) = static_cast<float>(speed(grid.position(i, j, k)));
 }
 
+/// No speed through what is closed.
+inline void restAtClosedFaces(FluidState& gas) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t n = 0; n < gas.velocity.component(axis).values.size(); ++n)
+      if (gas.solid.openShare.component(axis).values[n] == 0) gas.velocity.component(axis).values[n] = 0;
+}
+
 inline double largestDifference(const std::vector<float>& a, const std::vector<float>& b) {
   double largest = 0;
   for (std::size_t n = 0; n < a.size(); ++n) largest = std::max(largest, std::abs(double(a[n]) - b[n]));

@@ -91,6 +91,21 @@ TEST_F(Determinism, PlainCodeGivesTheSameFilesAsTheWidestVectors) {
   }
 }
 
+TEST_F(Determinism, EverySchemeGivesTheSameFilesByOnePlainThreadAsByTwoWideOnes) {
+  for (const std::string scheme : {"maccormack", "semi_lagrangian"}) {
+    const std::vector<std::string> carried{"--set", "gas.advection=" + scheme, "--set", "gas.viscosity=0.01"};
+    std::vector<std::string> one = carried, two = carried;
+    one.insert(one.end(), {"--threads", "1"});
+    two.insert(two.end(), {"--threads", "2"});
+    StartOptions plain;
+    plain.environment = {{"BRISANCE_VECTOR", "plain"}};
+    ASSERT_EQ(simulate(scheme + "_one", one, plain).exitCode, 0);
+    ASSERT_EQ(simulate(scheme + "_two", two).exitCode, 0);
+    expectSameRun(*place_ / (scheme + "_one"), *place_ / (scheme + "_two"));
+    EXPECT_NE(contentsOf(*place_ / (scheme + "_one")), contentsOf(calm()));
+  }
+}
+
 TEST_F(Determinism, AnotherSeedGivesAnotherExplosion) {
   ASSERT_EQ(simulate("seed", {"--set", "scene.seed=8"}).exitCode, 0);
   EXPECT_NE(contentsOf(*place_ / "seed"), contentsOf(calm()));

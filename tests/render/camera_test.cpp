@@ -71,3 +71,23 @@ TEST(CameraKeys, AStraightRideAtOneSpeedStaysStraightForAnySpacingOfTheKeys) {
     EXPECT_NEAR(cameraAt(settings, time).fovDegrees, 30 + 5 * time, 100 * rounding);
   }
 }
+
+TEST(Camera, AllWaysThroughALensMeetInThePlaneOfFocus) {
+  CameraKey key;
+  key.position = {1, 2, 3};
+  key.lookAt = {0, 0, -4};
+  key.lensRadius = 0.3;
+  key.focusDistance = 2.5;
+  const Camera lens(key, 40, 30);
+  const Vec3d forward = normalized(key.lookAt - key.position);
+  const auto inFocus = [&](const Vec2<float>& where) {
+    const CameraWay way = lens.way(31, 4, where);
+    return way.origin + way.direction * ((2.5 - dot(way.origin - key.position, forward)) / dot(way.direction, forward));
+  };
+  const Vec3d middle = key.position + lens.direction(31, 4) * (2.5 / dot(lens.direction(31, 4), forward));
+  for (const Vec2<float> where : {Vec2<float>{0, 0}, Vec2<float>{1, 0.2f}, Vec2<float>{0.5f, 0.9f}}) {
+    expectNear(inFocus(where), middle, 1e-6);
+    EXPECT_LE(length(lens.way(31, 4, where).origin - key.position), 0.3 + 1e-6);
+  }
+  EXPECT_NEAR(length(lens.way(31, 4, {1, 0.2f}).origin - key.position), 0.3, 1e-6);
+}

@@ -70,6 +70,32 @@ TEST(RenderFrame, OneThreadAndFourMakeTheSamePixels) {
   EXPECT_EQ(contentHash(one), contentHash(drawn(4)));
 }
 
+TEST(RenderFrame, PathsAreTheSameForOneThreadAndFour) {
+  auto [frame, settings] = smallExplosion();
+  settings.integrator = PathIntegrator{};
+  const auto drawn = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return renderFrame(frame, settings);
+  };
+  const Image one = drawn(1);
+  EXPECT_GT(mean(one), 0.01);
+  EXPECT_EQ(contentHash(one), contentHash(drawn(4)));
+}
+
+// Where no light goes further than appendix A follows it, both integrators see the same.
+TEST(RenderFrame, BothIntegratorsAgreeOnAWallUnderAPointLight) {
+  auto [frame, settings] = smallExplosion();
+  frame.bodies.resize(1);
+  settings.volume.drawn = false;
+  settings.samples = 4;
+  settings.lights.resize(1);
+  const Image whitted = renderFrame(frame, settings);
+  settings.integrator = PathIntegrator{1, 1, 0};
+  const Image path = renderFrame(frame, settings);
+  for (std::size_t p = 0; p < whitted.pixels.size(); ++p)
+    EXPECT_NEAR(whitted.pixels[p].x, path.pixels[p].x, 1e-4f + 1e-4f * whitted.pixels[p].x);
+}
+
 TEST(RenderFrame, ASeedChangesTheJitterAndNotThePicture) {
   auto [frame, settings] = smallExplosion();
   settings.samples = 4;

@@ -166,11 +166,16 @@ TEST(Phong, AWhiteWallReturnsTheCosineOverTheSquareOfTheDistance) {
 }
 
 TEST(Phong, TheHighlightIsBrightestInTheMirrorDirection) {
-  const PhongPoint point{{0, 1, 0}, normalized(Vec3f(1, 1, 0)), {0, 0, 0}, {0.8f, 0.8f, 0.8f}, 20};
-  EXPECT_NEAR(phongShare(point, normalized(Vec3f(-1, 1, 0))).x, 0.8, rounding);
-  EXPECT_LT(phongShare(point, normalized(Vec3f(-1, 0.5f, 0))).x, 0.5f);
-  EXPECT_EQ(phongShare(point, normalized(Vec3f(1, 0.1f, 0))), Vec3f{});  // away from the mirror direction: clamped
-  EXPECT_EQ(phongShare(point, normalized(Vec3f(-1, -1, 0))), Vec3f{});   // from below: clamped
+  const Phong surface{{}, {0.8f, 0.8f, 0.8f}, 20};
+  const Axes axes({0, 1, 0}, {});
+  const auto share = [&](const Vec3f& toLight) {
+    return value(surface, axes.toLocal(normalized(Vec3f(1, 1, 0))), axes.toLocal(normalized(toLight))) *
+           static_cast<float>(pi);
+  };
+  EXPECT_NEAR(share(Vec3f(-1, 1, 0)).x, 0.8, rounding);
+  EXPECT_LT(share(Vec3f(-1, 0.5f, 0)).x, 0.5f);
+  EXPECT_EQ(share(Vec3f(1, 0.1f, 0)), Vec3f{});  // away from the mirror direction: clamped
+  EXPECT_EQ(share(Vec3f(-1, -1, 0)), Vec3f{});   // from below: clamped
 }
 
 TEST(ShadowOnAWall, IsDarkBehindABodyAndDimBehindGlass) {

@@ -92,7 +92,7 @@ TEST(Rigid, StepHalvingConvergesAtFourthOrder) {
 TEST(GasPush, ABodyComesToTheSpeedOfTheWindAndNeverBeyond) {
   for (const double sign : {1.0, -1.0}) {
     RigidBodies b = boxBody({.1, .1, .1}, 10);
-    GasPush push;
+    Drag push;
     push.forceConstant = 30;
     const MacVelocity gas = wind({0, 0, 2 * sign});
     double last = 0;
@@ -139,7 +139,7 @@ TEST(GasPush, TheThesisSumPushesAFinerMeshHarder) {
   TriangleMesh fine = *b.mesh[0];
   for (int copy = 0; copy < 8; ++copy) fine.vertices.push_back(fine.vertices[copy]);
   b.mesh.push_back(std::make_shared<const TriangleMesh>(fine));
-  GasPush thesis;
+  Drag thesis;
   thesis.quadrature = VertexSum{};
   pushBodies(b, wind({0, 0, 1}), thesis, 0, 0.01);
   EXPECT_NEAR(b.linearVelocity[1].z / b.linearVelocity[0].z, 2, 0.1);
@@ -151,7 +151,7 @@ TEST(GasPush, AShearTurnsABodyTheRightWay) {
     for (int j = 0; j < 16; ++j)
       for (int i = 0; i <= 16; ++i) gas.u(i, j, k) = static_cast<float>(gas.u.position(i, j, k).y - .5);
   RigidBodies b = boxBody({.2, .2, .2}, 1);
-  GasPush push;
+  Drag push;
   push.forceConstant = 100;
   for (int n = 0; n < 200; ++n) pushBodies(b, gas, push, 0, 0.05);
   EXPECT_LT(b.angularVelocity[0].z, -0.1);  // faster above: it rolls about -z
@@ -160,7 +160,7 @@ TEST(GasPush, AShearTurnsABodyTheRightWay) {
 
 TEST(GasPush, OnlyTheParallelForceIsTheThesisChoice) {
   RigidBodies whole = boxBody({.3, .1, .02}, 100), parallel = whole;
-  GasPush push;
+  Drag push;
   const MacVelocity gas = wind({0, 0, 1});
   pushBodies(whole, gas, push, 0, 0.1);
   push.parallelOnly = true;

@@ -53,6 +53,19 @@ TEST(SceneErrors, AValueOutOfRangeNamesTheRangeAndTheUnit) {
              "s.toml:4: gas.cell_size: must be above 0 [scene units], got 0");
 }
 
+TEST(SceneErrors, WallsMoveAlongThemselvesAndStirringHasAnAxis) {
+  expectLine("[gas]\nwall_velocity = { y_upper = [1, 0, 0] }\n",
+             "s.toml:2: gas.wall_velocity.y_upper: must be zero: this face is not no_slip");
+  expectLine("[gas]\nfaces = { y_upper = 'no_slip' }\nwall_velocity = { y_upper = [1, 2, 0] }\n",
+             "s.toml:3: gas.wall_velocity.y_upper: must lie in the face, got [1, 2, 0] [m/s]");
+  expectLine("[[gas.stirring]]\naxis = [0, 0, 0]\n", "s.toml:2: gas.stirring.0.axis: must not be zero");
+}
+
+TEST(SceneErrors, OnlySemiLagrangianStepsMayBeLongerThanACell) {
+  expectLine("[gas]\nadvection = 'maccormack'\ncourant = 1.5\n",
+             "s.toml:3: gas.courant: must be at most 1 unless gas.advection is semi_lagrangian, got 1.5");
+}
+
 TEST(SceneErrors, NumbersThatAreNoneAreRefusedEverywhere) {
   for (const std::string number : {"nan", "inf", "-inf", "1e300"}) {
     const std::string shown = number == "1e300" ? "1e+300" : number;

@@ -28,6 +28,13 @@ faces = { y_lower = "free_slip", z_upper = "no_slip" }
 advection = { type = "donor_cell", upwind_weight = 0.9 }
 pressure = { type = "multigrid", tolerance = 1e-7 }
 force = [0.1, -0.2, 0.3]
+wall_velocity = { z_upper = [0.5, -1, 0] }
+[[gas.stirring]]
+centre = [0, 0.6, 0]
+radius = 0.4
+angular_speed = -2
+[[gas.stirring]]
+length = 0.1
 [explosion]
 burn_rate = 0.21
 soot_once = true
@@ -131,7 +138,7 @@ TEST(SceneFile, EveryTableLandsInItsSettings) {
   EXPECT_EQ(s.particles.burning.burnRate, 0.21);
   ASSERT_EQ(s.particles.charges.size(), 2u);
   EXPECT_EQ(s.particles.charges[1].time, 0.25);
-  EXPECT_TRUE(std::holds_alternative<VertexSum>(s.rigid.push.quadrature));
+  EXPECT_TRUE(std::holds_alternative<VertexSum>(std::get<Drag>(s.rigid.push).quadrature));
   EXPECT_EQ(s.bodies[0].fracture.pieces, 16);
   EXPECT_TRUE(std::holds_alternative<Delaunay>(std::get<PaneSettings>(s.bodies[0].shape).triangulation));
   EXPECT_EQ(std::get<MassPerArea>(s.bodies[0].mass).perArea, 12.5);

@@ -26,7 +26,7 @@ inline SimulationSettings smallScene() {
   s.particles.burning.heating = 75000;
   s.particles.burning.depositRadius = 0.08;
   s.particles.charges = {{{.5, .5, .35}, .1, 0, 300, 150, 1200, .1}, {{.4, .6, .3}, .05, .15, 50, 50, 0, 0}};
-  s.rigid.push.forceConstant = 300;
+  s.rigid.push = Drag{300, {}, false, 0};
   s.bodies = {wallPart("left", {-.2, -.2, .6}, {.35, 1.2, .7}), wallPart("right", {.65, -.2, .6}, {1.2, 1.2, .7}),
               wallPart("below", {.35, -.2, .6}, {.65, .3, .7}), wallPart("above", {.35, .7, .6}, {.65, 1.2, .7})};
   BodySettings pane;
@@ -40,6 +40,14 @@ inline SimulationSettings smallScene() {
   pane.pose.position = {.5, .5, .65};
   pane.material = "glass";
   s.bodies.push_back(pane);
+  return s;
+}
+
+/// The same, the pieces in the way of the gas and pushed by its pressure.
+inline SimulationSettings blockingScene() {
+  SimulationSettings s = smallScene();
+  s.bodiesInGas = BodiesInGas::block;
+  s.rigid.push = Pressure{};
   return s;
 }
 
