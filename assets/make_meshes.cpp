@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "assets/models.h"
 #include "assets/sample_meshes.h"
 #include "assets/vase.h"
 #include "base/check.h"
@@ -26,10 +27,16 @@ int make(const std::string& shape, long triangles, const std::string& file) {
                                                              {"torus", samples::torus},
                                                              {"figurine", samples::figurine},
                                                              {"sheet", sheet},
-                                                             {"vase", brisance::assets::vase}};
+                                                             {"vase", brisance::assets::vase},
+                                                             {"cow", samples::cow},
+                                                             {"teddy", samples::teddy},
+                                                             {"statue", samples::statue},
+                                                             {"pumpkin", samples::pumpkin}};
   const auto found = shapes.find(shape);
   if (found == shapes.end() || triangles < 100) {
-    std::fputs("make_meshes: usage: make_meshes sphere|dumbbell|torus|figurine|sheet|vase TRIANGLES OUT.obj\n", stderr);
+    std::fputs("make_meshes: usage: make_meshes SHAPE TRIANGLES OUT.obj, SHAPE one of", stderr);
+    for (const auto& [name, maker] : shapes) std::fprintf(stderr, " %s", name.c_str());
+    std::fputs("\n", stderr);
     return static_cast<int>(brisance::ExitCode::badScene);
   }
   brisance::writeObj(file, found->second(triangles));

@@ -32,12 +32,6 @@ double smoothNoise(const Vec3d& p) {
   return sum;
 }
 
-/// The lesser of two distances, rounded where they are alike within k (Quilez 2008).
-double smoothUnion(double a, double b, double k) {
-  const double h = std::max(k - std::abs(a - b), 0.0) / k;
-  return std::min(a, b) - h * h * k / 4;
-}
-
 constexpr std::uint32_t noVertex = 0xFFFFFFFFu;
 
 /// Values at lattice points, and the vertex of each cell.

@@ -1,14 +1,10 @@
 // Meshes that the project makes itself: for tests, benchmarks and the pictures of docs/.
 #pragma once
 
-#include <functional>
-
+#include "assets/implicit_solid.h"
 #include "mesh/triangle_mesh.h"
 
 namespace brisance::samples {
-
-/// A function of space that is below 0 inside a body.
-using Implicit = std::function<double(const Vec3d&)>;
 
 /// Closed, oriented surface of a body inside `box` by surface nets (Gibson 1998): one vertex per cell that the surface
 /// crosses, one quadrilateral per lattice edge. The lattice step is `step` [m]. The body must not touch the box.

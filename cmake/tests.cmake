@@ -22,6 +22,7 @@ foreach(folder base grid mesh particles rigid fracture frame simulation render s
   brisance_tests(${folder} USES ${folder} sample_meshes LIBRARIES nlohmann_json::nlohmann_json Eigen3::Eigen)
 endforeach()
 brisance_tests(fluid USES fluid sample_meshes textbook_flows LIBRARIES nlohmann_json::nlohmann_json)
+brisance_tests(assets USES fracture sample_meshes)
 brisance_tests(laws USES scene sample_meshes LIBRARIES nlohmann_json::nlohmann_json)
 brisance_tests(faults USES scene LIBRARIES nlohmann_json::nlohmann_json)
 brisance_tests(world USES scene LIBRARIES nlohmann_json::nlohmann_json)

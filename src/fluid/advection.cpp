@@ -172,7 +172,7 @@ struct ScalarTransport {
   void by(const DonorCell& scheme) const {
     const float weight = static_cast<float>(scheme.upwindWeight);
     const PaddedGrid* last = &scratch.scalar;
-    for (int left = donorStages(scheme, courantNumber(gas, dt)); left > 1; --left) {
+    for (int left = donorStages(scheme, courantOfSpeeds(gas, dt)); left > 1; --left) {
       PaddedGrid& stage = scratch.stage[left % 2].component[0];
       part(1.0f / static_cast<float>(left), *last, weight, stage);
       last = &stage;
@@ -241,7 +241,7 @@ struct VelocityTransport {
   void by(const DonorCell& scheme) const {
     const float weight = static_cast<float>(scheme.upwindWeight);
     const PaddedVelocity* last = &scratch.velocity;
-    const int stages = donorStages(scheme, courantNumber(gas, dt));
+    const int stages = donorStages(scheme, courantOfSpeeds(gas, dt));
     if (stages > 1) padPressure();
     for (int left = stages; left > 1; --left) {
       PaddedVelocity& stage = scratch.stage[left % 2];
@@ -304,7 +304,7 @@ double largestMagnitude(const Grid3<float>& grid) {
   });
 }
 
-double courantNumber(const FluidState& gas, double dt) {
+double courantOfSpeeds(const FluidState& gas, double dt) {
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) sum += largestMagnitude(gas.velocity.component(axis));
   return dt * sum / gas.pressure.cellSize;

@@ -35,7 +35,7 @@ Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSet
 int donorStages(const DonorCell& scheme, double courant);
 
 double largestMagnitude(const Grid3<float>& grid);
-/// dt sum(max |u_i|) / h of the gas as it is.
-double courantNumber(const FluidState& gas, double dt);
+/// dt sum(max |u_i|) / h of the speeds as they stand at the faces.
+double courantOfSpeeds(const FluidState& gas, double dt);
 
 }  // namespace brisance

@@ -93,6 +93,12 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
   return report;
 }
 
+double courantNumber(const FluidState& gas, double dt) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) sum += fastestGas(gas, axis, largestMagnitude(gas.velocity.component(axis)));
+  return dt * sum / gas.pressure.cellSize;
+}
+
 double longestStep(const FluidState& gas, const FluidSettings& s, double largestSource) {
   const double h = s.cellSize;
   double inverse = courantNumber(gas, 1) / s.courant;

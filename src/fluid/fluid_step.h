@@ -28,6 +28,9 @@ struct FluidReport {
 FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double sootPerMass, double dt,
                       FluidScratch& scratch);
 
+/// dt sum(max |u_i|) / h of the gas as it is, in cut faces of the gas in their open part.
+double courantNumber(const FluidState& gas, double dt);
+
 /// The longest stable step [s] for the gas as it moves now when its source may reach `largestSource` [1/s]: Courant
 /// number, expansion dt <= 6 C / phi, acceleration. Viscosity and conduction set no limit.
 double longestStep(const FluidState& gas, const FluidSettings& settings, double largestSource);

@@ -33,6 +33,17 @@ void forCutRows(FluidState& gas, const Change& change) {
   });
 }
 
+/// Velocity of the gas in the open part of a face.
+double gasSpeed(const FluidState& gas, int axis, std::int64_t index) {
+  double speed = gas.velocity.component(axis).values[index];
+  const auto& faces = gas.solid.bodyFaces;
+  auto f = std::partition_point(faces.begin(), faces.end(), [&](const BodyFace& face) {
+    return face.axis != axis ? face.axis < axis : face.index < index;
+  });
+  for (; f != faces.end() && f->axis == axis && f->index == index; ++f) speed -= carriedBy(gas.solid, *f, gas.velocity);
+  return speed / gas.solid.openShare.component(axis).values[index];
+}
+
 /// Fields at cell centres that a cell needs when gas comes into it.
 std::array<Grid3<float>*, 4> cellFields(FluidState& gas) {
   return {&gas.temperature, &gas.soot, &gas.flame, &gas.pressure};
@@ -112,6 +123,27 @@ void takeMeanVelocity(FluidState& gas) {
     float& speed = gas.velocity.component(f.axis).values[f.index];
     speed = static_cast<float>(speed + carriedBy(gas.solid, f, gas.velocity));
   }
+}
+
+double fastestGas(const FluidState& gas, int axis, double fastestMean) {
+  const Vec3i n = gas.solid.inside.size;
+  const Grid3<float>&mean = gas.velocity.component(axis), &open = gas.solid.openShare.component(axis);
+  for (const BodyFace& f : gas.solid.bodyFaces)
+    if (f.axis == axis && open.values[f.index] > 0)
+      fastestMean = std::max(fastestMean, std::abs(gasSpeed(gas, axis, f.index)));
+  return parallelMax(n.z, 1, [&](std::int64_t first, std::int64_t last) {
+    double fastest = fastestMean;
+    for (int k = static_cast<int>(first); k < last; ++k)
+      for (int j = 0; j < n.y; ++j) {
+        if (!gas.solid.cutRows[j + static_cast<std::size_t>(n.y) * k]) continue;
+        for (std::int64_t at = mean.index(0, j, k), end = at + mean.size.x; at < end; ++at) {
+          const float share = open.values[at];
+          if (share == 0 || share == 1 || std::abs(mean.values[at]) <= share * fastest) continue;
+          fastest = std::max(fastest, std::abs(gasSpeed(gas, axis, at)));
+        }
+      }
+    return fastest;
+  });
 }
 
 void moveSolids(FluidState& gas, std::span<const MovingSolid> bodies, const FluidSettings& settings,

@@ -13,6 +13,9 @@ namespace brisance {
 void takeGasVelocity(FluidState& gas);
 void takeMeanVelocity(FluidState& gas);
 
+/// The fastest gas along an axis in the open part of any face, where the mean velocity reaches `fastestMean` [m/s].
+double fastestGas(const FluidState& gas, int axis, double fastestMean);
+
 /// Puts the moving bodies where they are now, with their velocities. Cells that they uncover get what the gas around
 /// them has.
 void moveSolids(FluidState& gas, std::span<const MovingSolid> bodies, const FluidSettings& settings,

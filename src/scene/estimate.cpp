@@ -45,7 +45,7 @@ double gigabytes(std::int64_t bytes) { return static_cast<double>(bytes) / 1e9; 
 
 double gasCellMemory(const SimulationSettings& s) {
   double bytes = stateMemory + solidMemory + writingMemory;
-  bytes += sweepsSuffice(s.fluid) ? sweepMemory : separateMemory;
+  bytes += sweepsSuffice(s.fluid, s.fluid.courant) ? sweepMemory : separateMemory;
   if (std::holds_alternative<MultigridSolver>(s.fluid.pressure)) bytes += multigridMemory;
   bytes += std::holds_alternative<ConjugateGradient>(s.fluid.pressure) ? gradientMemory : pressureMemory;
   if (s.bodiesInGas == BodiesInGas::block) bytes += movingMemory;

@@ -212,41 +212,6 @@ TEST(PressureSolvers, WhatTheyClaimAmongSolidsIsTrue) {
   }
 }
 
-/// Baffles a tenth of a cell thick, each from another wall of the box: one long way through many thin walls.
-std::vector<MovingSolid> labyrinth(int walls) {
-  std::vector<MovingSolid> baffles;
-  for (int n = 0; n < walls; ++n)
-    baffles.push_back(solidAt({(n + .7) / (walls + .5), n % 2 ? .56 : .44, .5}, boxMesh({.004, 1, 1.2}, false)));
-  return baffles;
-}
-
-TEST(PressureSolvers, WhereTransformsTakeTooLongMultigridGoesOnFromThere) {
-  FluidSettings s = box({24, 24, 24});
-  for (const int face : {2, 3, 4, 5}) s.faces[face] = FaceKind::noSlip;
-  const std::vector<MovingSolid> solids = labyrinth(11);
-  const auto solved = [&](const PressureSolver& solver, PressureReport& report) {
-    s.pressure = solver;
-    FluidState gas = stirredGas(s, solids);
-    PressureScratch scratch;
-    report = project(gas, s, 0.05, scratch);
-    return gas;
-  };
-  PressureReport alone, handedOver, exact;
-  constexpr int patience = 100;  // of auto
-  solved(FastPoisson{1e-5, patience}, alone);
-  EXPECT_FALSE(alone.converged) << "the case is too easy to show anything";
-  const FluidState gas = solved(AutomaticSolver{1e-5}, handedOver);
-  EXPECT_TRUE(handedOver.converged);
-  EXPECT_GT(handedOver.iterations, patience);
-  EXPECT_LE(handedOver.residual, 1e-5);
-  const FluidState reference = solved(ConjugateGradient{1e-10, 8000}, exact);
-  double highest = 0;
-  for (const float p : reference.pressure.values) highest = std::max(highest, std::abs(double(p)));
-  EXPECT_LT(largestDifference(gas.pressure.values, reference.pressure.values), 1e-3 * highest);
-  for (int axis = 0; axis < 3; ++axis)
-    EXPECT_LT(largestDifference(gas.velocity.component(axis).values, reference.velocity.component(axis).values), 2e-3);
-}
-
 TEST(PressureSolvers, AUniformFlowStays) {
   for (const PressureSolver& solver : fastSolvers)
     for (const double sign : {1.0, -1.0}) {
