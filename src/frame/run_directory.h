@@ -66,8 +66,8 @@ std::string frameFile(const std::string& folder, const std::string& stem, int in
 /// Reads only; no lock.
 std::map<std::string, ManifestEntry> readManifest(const std::filesystem::path& run);
 
-/// Reads the frames of a run, by one look at its manifest; no lock. A file's hash is checked against the manifest before
-/// a parser sees it.
+/// Reads the frames of a run, by one look at its manifest; no lock. A file's hash is checked against the manifest
+/// before a parser sees it.
 class RunReader {
  public:
   /// Throws InputError where there is no run.
