@@ -51,6 +51,12 @@ class Blender : public ::testing::Test {
     ASSERT_NE(seen_, nullptr);
   }
 
+  static void seesEveryPieceInItsPlace();
+  static void seesEveryPieceTurnedAsItIs();
+  static void seesTheGasOfTheSameFrame();
+  static void seesWhereTheGasIsHot();
+  static void drawsAPictureOfMoreThanSky();
+
   static std::string path(const std::string& name) { return (*place_ / name).string(); }
   static void done(const std::vector<std::string>& words) {
     const Outcome outcome = runProgram(words);
@@ -65,7 +71,7 @@ class Blender : public ::testing::Test {
 ScratchDirectory* Blender::place_ = nullptr;
 json* Blender::seen_ = nullptr;
 
-TEST_F(Blender, SeesEveryPieceInItsPlace) {
+void Blender::seesEveryPieceInItsPlace() {
   for (const int frame : looked) {
     const Frame expected = written(frame);
     ASSERT_EQ(seen(frame).at("bodies").size(), expected.bodies.size());
@@ -79,7 +85,7 @@ TEST_F(Blender, SeesEveryPieceInItsPlace) {
       << "nothing moved, so nothing was shown";
 }
 
-TEST_F(Blender, SeesEveryPieceTurnedAsItIs) {
+void Blender::seesEveryPieceTurnedAsItIs() {
   for (const int frame : looked)
     for (const FrameBody& body : written(frame).bodies) {
       Box3 expected, found;
@@ -90,7 +96,7 @@ TEST_F(Blender, SeesEveryPieceTurnedAsItIs) {
     }
 }
 
-TEST_F(Blender, SeesTheGasOfTheSameFrame) {
+void Blender::seesTheGasOfTheSameFrame() {
   for (const int frame : looked) {
     EXPECT_EQ(seen(frame).at("error"), "");
     EXPECT_EQ(seen(frame).at("file"), "gas.000" + std::to_string(frame) + ".vdb");
@@ -100,7 +106,7 @@ TEST_F(Blender, SeesTheGasOfTheSameFrame) {
 }
 
 /// A surface between hot and cold cells passes between their centres: no further out than one cell, and never inside.
-TEST_F(Blender, SeesWhereTheGasIsHot) {
+void Blender::seesWhereTheGasIsHot() {
   const int frame = frames;
   const SparseGrid<float> temperature = written(frame).gas.temperature;
   Box3 hot;
@@ -124,13 +130,22 @@ TEST_F(Blender, SeesWhereTheGasIsHot) {
   }
 }
 
-TEST_F(Blender, DrawsAPictureOfMoreThanSky) {
+void Blender::drawsAPictureOfMoreThanSky() {
   const Picture picture = decodePicture(textOf(path("frame.png")), "frame.png");
   ASSERT_EQ(picture.width, 240);
   constexpr int noise = 40;  // of the few samples
   std::size_t differ = 0;
   for (std::size_t n = 0; n < picture.rgb.size(); n += 3) differ += std::abs(picture.rgb[n] - picture.rgb[0]) > noise;
   EXPECT_GT(differ, picture.rgb.size() / 3 / 20);
+}
+
+/// One test, for Blender is started once for a process.
+TEST_F(Blender, OpensAndDrawsAFilmAsItIs) {
+  seesEveryPieceInItsPlace();
+  seesEveryPieceTurnedAsItIs();
+  seesTheGasOfTheSameFrame();
+  seesWhereTheGasIsHot();
+  drawsAPictureOfMoreThanSky();
 }
 
 }  // namespace
