@@ -1,4 +1,5 @@
-# tests/ mirrors src/: one program per folder, plus laws/ (promises that span modules) and faults/ (bad input, full disks).
+# tests/ mirrors src/: one program per folder, plus laws/ (promises that span modules), faults/ (bad input,
+# full disks) and world/ (what other programs make of our files).
 include(GoogleTest)
 function(brisance_tests folder)
   cmake_parse_arguments(ARG "" "" "USES;LIBRARIES" ${ARGN})
@@ -24,7 +25,8 @@ brisance_tests(fluid USES fluid sample_meshes textbook_flows LIBRARIES nlohmann_
 brisance_tests(assets USES fracture sample_meshes)
 brisance_tests(laws USES scene sample_meshes LIBRARIES nlohmann_json::nlohmann_json)
 brisance_tests(faults USES scene LIBRARIES nlohmann_json::nlohmann_json)
-foreach(folder laws faults)
+brisance_tests(world USES scene LIBRARIES nlohmann_json::nlohmann_json)
+foreach(folder laws faults world)
   if(TARGET test_${folder})
     add_dependencies(test_${folder} brisance)
   endif()

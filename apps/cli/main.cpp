@@ -20,7 +20,8 @@ int call(const Options& options) {
   static const std::map<std::string, int (*)(const Options&)> commands{
       {"run", runCommand},       {"simulate", simulateCommand},   {"render", renderCommand},
       {"encode", encodeCommand}, {"check", checkCommand},         {"info", infoCommand},
-      {"verify", verifyCommand}, {"reference", referenceCommand}, {"fracture", fractureCommand}};
+      {"verify", verifyCommand}, {"reference", referenceCommand}, {"fracture", fractureCommand},
+      {"export", exportCommand}};
   const ThreadLimit limit(options.threads);
   return commands.at(options.command)(options);
 }

@@ -31,7 +31,7 @@ struct RawOptions {
   Options options;
   RawFractureOptions fracture;
   const CLI::App* fractureCommand = nullptr;
-  std::string frames, size;
+  std::string frames, size, format, profile;
   int samples = 0;
   bool overwrite = false, resume = false;
 };
@@ -48,10 +48,14 @@ void addPath(CLI::App* command, RawOptions& raw, const std::string& name, const 
   command->add_option(name, raw.options.path, what)->required()->option_text(" ");
 }
 
-void addWorkOptions(CLI::App* command, RawOptions& raw) {
+void addThreads(CLI::App* command, RawOptions& raw) {
   command->add_option("--threads", raw.options.threads, "how many threads; 0: one per core")
       ->check(CLI::Range(0, 4096))
       ->option_text("N");
+}
+
+void addWorkOptions(CLI::App* command, RawOptions& raw) {
+  addThreads(command, raw);
   command
       ->add_option("--set", raw.options.overrides,
                    "any key of the scene: --set explosion.burn_rate=0.3; may be repeated")
@@ -122,6 +126,37 @@ void addFractureCommand(CLI::App& app, RawOptions& raw) {
   raw.fractureCommand = fracture;
 }
 
+constexpr std::pair<const char*, ExportFormat> exportFormats[] = {
+    {"gltf", ExportFormat::gltf}, {"usd", ExportFormat::usd}, {"vdb", ExportFormat::vdb}, {"obj", ExportFormat::obj}};
+
+void addExportCommand(CLI::App& app, RawOptions& raw) {
+  CLI::App* command = addCommand(app, raw, "export", "a run for other tools: moving bodies, gas");
+  addPath(command, raw, "RUN", "the run directory");
+  command
+      ->add_option("--to", raw.format,
+                   "gltf: bodies, moving, one .glb; usd: bodies and gas, one .usda; vdb: a folder of gas files; "
+                   "obj: a folder with the bodies of each frame")
+      ->required()
+      ->check(CLI::IsMember({"gltf", "usd", "vdb", "obj"}))
+      ->option_text("NAME");
+  command->add_option("-o,--output", raw.options.output, "the file or folder to make")->required()->option_text("PATH");
+  addFrames(command, raw, "A-B[:S]", "only these frames, from 1; all that are there where not given");
+  command->add_option("--profile", raw.profile, "of vdb: blender, z up as an imported glTF lies, and its grid names")
+      ->check(CLI::IsMember({"blender"}))
+      ->option_text("NAME");
+  command->add_flag("--overwrite", raw.overwrite, "replace what an earlier export made");
+  addThreads(command, raw);
+}
+
+void finishExport(const RawOptions& raw, Options& options) {
+  for (const auto& [name, format] : exportFormats)
+    if (raw.format == name) options.format = format;
+  if (raw.profile.empty()) return;
+  if (options.format != ExportFormat::vdb)
+    throw InputError(fmt::format("brisance: --profile: belongs to --to vdb; {} files are alike for all", raw.format));
+  options.profile = ExportProfile::blender;
+}
+
 void addLookingCommands(CLI::App& app, RawOptions& raw) {
   CLI::App* info = addCommand(app, raw, "info", "what a run, a scene or a mesh holds");
   addPath(info, raw, "PATH", "a run directory, a scene file or a mesh");
@@ -156,6 +191,7 @@ Options finished(RawOptions raw) {
   if (!raw.frames.empty()) options.frames = parseFrameRange(raw.frames);
   if (!raw.size.empty()) options.size = parsePictureSize(raw.size);
   if (options.command == "fracture") options.fracture = finished(raw.fracture, *raw.fractureCommand);
+  if (options.command == "export") finishExport(raw, options);
   if (raw.samples > 0) options.samples = raw.samples;
   if (raw.overwrite) options.existing = ExistingRun::overwrite;
   if (raw.resume) options.existing = ExistingRun::resume;
@@ -192,6 +228,7 @@ CommandLine parseCommandLine(int count, const char* const* arguments) {
   addSceneCommands(app, raw);
   addPictureCommands(app, raw);
   addFractureCommand(app, raw);
+  addExportCommand(app, raw);
   addLookingCommands(app, raw);
   refuseUnknownCommand(app, count, arguments);
   try {

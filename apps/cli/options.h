@@ -27,6 +27,10 @@ struct PictureSize {
 /// "WxH". Throws InputError naming --size.
 PictureSize parsePictureSize(const std::string& text);
 
+enum class ExportFormat { gltf, usd, vdb, obj };
+/// Whose habits the files follow.
+enum class ExportProfile { ours, blender };
+
 /// What may happen to a run that exists.
 enum class ExistingRun { refuse, overwrite, resume };
 
@@ -43,6 +47,8 @@ struct Options {
   int threads = 0;                             ///< 0: all cores
   ExistingRun existing = ExistingRun::refuse;  ///< --overwrite, --resume
   FractureOptions fracture;
+  ExportFormat format = ExportFormat::gltf;  ///< of `export`
+  ExportProfile profile = ExportProfile::ours;
   bool skipExisting = false;
   bool json = false;
   bool quiet = false;

@@ -70,12 +70,23 @@ std::vector<std::unique_ptr<Leaf>> makeLeaves(const SparseGrid<T>& grid) {
   return leaves;
 }
 
+/// y up becomes z up: (x, y, z) goes to (x, -z, y). Points are rows there.
+openvdb::Mat4R yUpToZUp() { return {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1}; }
+
+SparseGrid<Vec3f> turnedToZUp(SparseGrid<Vec3f> grid) {
+  const auto turn = [](Vec3f& v) { v = {v.x, -v.z, v.y}; };
+  turn(grid.background);
+  for (auto& brick : grid.bricks) std::for_each(brick.values.begin(), brick.values.end(), turn);
+  return grid;
+}
+
 template <class VdbGrid, class T>
-typename VdbGrid::Ptr makeVdbGrid(const SparseGrid<T>& grid, const std::string& name) {
+typename VdbGrid::Ptr makeVdbGrid(const SparseGrid<T>& grid, const std::string& name, bool zUp) {
   auto vdb = VdbGrid::create(toVdb(grid.background));
   for (auto& leaf : makeLeaves<typename VdbGrid::TreeType::LeafNodeType>(grid)) vdb->tree().addLeaf(leaf.release());
   auto transform = openvdb::math::Transform::createLinearTransform(grid.cellSize);
   transform->postTranslate({grid.origin.x, grid.origin.y, grid.origin.z});
+  if (zUp) transform->postMult(yUpToZUp());
   vdb->setTransform(transform);
   vdb->setName(name);
   vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
@@ -94,14 +105,20 @@ class MemoryArchive : public openvdb::io::Archive {
 
 /// Bytes of a file of one grid.
 template <class VdbGrid, class T>
-std::string fileOfOne(const SparseGrid<T>& grid, const std::string& name) {
+std::string fileOfOne(const SparseGrid<T>& grid, const std::string& name, bool zUp) {
   std::string room;
   room.reserve(grid.bricks.size() * sizeof(grid.bricks[0]) + (1 << 16));  // so that it need not grow
   std::ostringstream out(std::move(room), std::ios_base::binary | std::ios_base::out);
   MemoryArchive archive;
   archive.setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
-  archive.writeTo(out, {makeVdbGrid<VdbGrid>(grid, name)});
+  archive.writeTo(out, {makeVdbGrid<VdbGrid>(grid, name, zUp)});
   return std::move(out).str();
+}
+
+std::string fileOfVelocity(const SparseGrid<Vec3f>& grid, const GasConventions& conventions) {
+  const std::string& name = conventions.velocityName;
+  if (conventions.zUp) return fileOfOne<openvdb::Vec3SGrid>(turnedToZUp(grid), name, true);
+  return fileOfOne<openvdb::Vec3SGrid>(grid, name, false);
 }
 
 /// A file's beginning: magic number, versions, the flag that grids have offsets, the UUID; then what the file itself
@@ -262,17 +279,29 @@ std::string contentHash(const FrameGas& gas) {
   return hash.hex();
 }
 
-std::string gasToVdb(const FrameGas& gas) {
+namespace {
+/// What the UUID is made of: the content and, where they are not ours, the conventions.
+std::string nameOf(const FrameGas& gas, const GasConventions& conventions) {
+  const std::string content = contentHash(gas);
+  if (conventions == GasConventions{}) return content;
+  ContentHash hash;
+  hash.add(fmt::format("{} {} {}", content, conventions.velocityName, conventions.zUp));
+  return hash.hex();
+}
+}  // namespace
+
+std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions) {
   openvdb::initialize();
+  const bool zUp = conventions.zUp;
   std::array<std::string, 4> files;
   std::string hash;
   // Compressing takes most of the time, and the velocity is half of the work: it starts first.
   const std::function<void()> work[] = {
-      [&] { files[3] = fileOfOne<openvdb::Vec3SGrid>(gas.velocity, "vel"); },
-      [&] { files[0] = fileOfOne<openvdb::FloatGrid>(gas.density, "density"); },
-      [&] { files[1] = fileOfOne<openvdb::FloatGrid>(gas.temperature, "temperature"); },
-      [&] { files[2] = fileOfOne<openvdb::FloatGrid>(gas.flame, "flame"); },
-      [&] { hash = contentHash(gas); },
+      [&] { files[3] = fileOfVelocity(gas.velocity, conventions); },
+      [&] { files[0] = fileOfOne<openvdb::FloatGrid>(gas.density, "density", zUp); },
+      [&] { files[1] = fileOfOne<openvdb::FloatGrid>(gas.temperature, "temperature", zUp); },
+      [&] { files[2] = fileOfOne<openvdb::FloatGrid>(gas.flame, "flame", zUp); },
+      [&] { hash = nameOf(gas, conventions); },
   };
   parallelFor(0, std::ssize(work), 1, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t n = first; n < last; ++n) work[n]();

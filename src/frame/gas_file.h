@@ -9,8 +9,15 @@
 
 namespace brisance {
 
+/// What another program wants otherwise.
+struct GasConventions {
+  std::string velocityName = "vel";
+  bool zUp = false;  ///< (x, y, z) lies and points at (x, -z, y)
+  friend bool operator==(const GasConventions&, const GasConventions&) = default;
+};
+
 /// The bytes of a VDB file that `openvdb::io::File` opens, with a UUID made from the content: equal gas, equal bytes.
-std::string gasToVdb(const FrameGas& gas);
+std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions = {});
 /// Reads what gasToVdb made. Throws DamagedFile. Check the bytes' hash first: the library trusts its input.
 FrameGas gasFromVdb(const std::string& bytes, const std::string& fileName);
 

@@ -17,7 +17,7 @@ constexpr std::size_t headerBytes = 12, chunkHeaderBytes = 8;
 
 constexpr int float32 = 5126, uint32 = 5125;              // accessor.componentType
 constexpr int vertexBuffer = 34962, indexBuffer = 34963;  // bufferView.target
-constexpr char scalar[] = "SCALAR", vec2[] = "VEC2", vec3[] = "VEC3";
+constexpr char scalar[] = "SCALAR", vec2[] = "VEC2", vec3[] = "VEC3", vec4[] = "VEC4";
 
 /// A whole GLB; both chunks are multiples of four bytes long, and an empty binary chunk is left out.
 inline std::string joinChunks(const std::string& json, const std::string& binary) {

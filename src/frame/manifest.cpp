@@ -66,6 +66,16 @@ std::map<std::string, ManifestEntry> readManifest(const fs::path& run) {
   }
 }
 
+int lastWholeFrame(const std::map<std::string, ManifestEntry>& manifest) {
+  const auto isWhole = [&](int index) {
+    const auto names = FrameFileNames(index).all();
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) { return manifest.contains(name); });
+  };
+  int last = 0;
+  while (isWhole(last + 1)) ++last;
+  return last;
+}
+
 bool isNameInRun(const std::string& name) {
   const fs::path path(name);
   if (name.empty() || name == manifestName || path.is_absolute() || path.lexically_normal() != path) return false;

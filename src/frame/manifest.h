@@ -21,6 +21,9 @@ struct FrameFileNames {
 
 std::string manifestToJson(const std::map<std::string, ManifestEntry>& manifest);
 
+/// Last frame N such that frames 1..N are whole in the manifest.
+int lastWholeFrame(const std::map<std::string, ManifestEntry>& manifest);
+
 /// True for a relative name that stays inside the run and is neither hidden nor the manifest itself.
 bool isNameInRun(const std::string& name);
 /// True for the names that a run gives to its files.

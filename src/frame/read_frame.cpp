@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <mutex>
 
 #include "base/check.h"
 #include "frame/body_file.h"
@@ -28,42 +29,6 @@ std::string difference(const FileRecord& found, const FileRecord& written) {
   if (found.size != written.size) return fmt::format("has {} bytes, {} were written", found.size, written.size);
   if (found.hash != written.hash) return "is damaged: its hash is not the manifest's";
   return "";
-}
-
-/// A file's bytes, after their hash was found to be the manifest's.
-std::string checkedBytes(const fs::path& run, const Manifest& manifest, const std::string& name) {
-  const auto entry = manifest.find(name);
-  const std::string path = (run / name).string();
-  if (entry == manifest.end()) throw DamagedFile(fmt::format("{}: is not in the manifest; simulate again", path));
-  std::string bytes = readFile(run / name);
-  const std::string wrong = difference(recordOfBytes(bytes), entry->second.file);
-  if (!wrong.empty()) throw DamagedFile(fmt::format("{}: {}; simulate this run again", path, wrong));
-  return bytes;
-}
-
-/// Meshes, materials and whether they move, from the pieces at rest; by name, since scenery and pieces may come and go.
-void addMeshes(const fs::path& run, const Manifest& manifest, std::vector<FrameBody>& bodies) {
-  if (bodies.empty()) return;
-  std::map<std::string, FrameBody> atRest;
-  for (FrameBody& body : piecesFromGlb(checkedBytes(run, manifest, "pieces.glb"), (run / "pieces.glb").string()))
-    atRest.emplace(body.name, std::move(body));
-  for (FrameBody& body : bodies) {
-    const auto found = atRest.find(body.name);
-    if (found == atRest.end())
-      throw DamagedFile(
-          fmt::format("{}: has no piece named '{}'; simulate again", (run / "pieces.glb").string(), body.name));
-    body.mesh = found->second.mesh;
-    body.material = found->second.material;
-    body.moves = found->second.moves;
-  }
-}
-
-void requireFrame(const fs::path& run, const Manifest& manifest, int index) {
-  if (manifest.contains(FrameFileNames(index).bodies)) return;
-  int last = 0;
-  while (manifest.contains(FrameFileNames(last + 1).bodies)) ++last;
-  throw InputError(fmt::format("{}: has no frame {}; it has {}", run.string(), index,
-                               last > 0 ? fmt::format("frames 1 to {}", last) : "none yet"));
 }
 
 std::string problemWith(const fs::path& path, const ManifestEntry& entry) {
@@ -98,18 +63,64 @@ void addMissingOfFrames(const Manifest& manifest, std::vector<std::string>& prob
 
 }  // namespace
 
+/// The pieces at rest by name, read when the first body wants one.
+struct RunReader::AtRest {
+  std::once_flag read;
+  std::map<std::string, FrameBody> pieces;
+};
+
+RunReader::RunReader(const fs::path& run)
+    : run_(run), manifest_(readManifest(run)), atRest_(std::make_unique<AtRest>()) {}
+RunReader::~RunReader() = default;
+
+int RunReader::lastFrame() const { return lastWholeFrame(manifest_); }
+
+void RunReader::requireFrame(int index) const {
+  if (manifest_.contains(FrameFileNames(index).bodies)) return;
+  const int last = lastFrame();
+  throw InputError(fmt::format("{}: has no frame {}; it has {}", run_.string(), index,
+                               last > 0 ? fmt::format("frames 1 to {}", last) : "none yet"));
+}
+
+std::string RunReader::bytes(const std::string& name) const {
+  const auto entry = manifest_.find(name);
+  const std::string path = (run_ / name).string();
+  if (entry == manifest_.end()) throw DamagedFile(fmt::format("{}: is not in the manifest; simulate again", path));
+  std::string bytes = readFile(run_ / name);
+  const std::string wrong = difference(recordOfBytes(bytes), entry->second.file);
+  if (!wrong.empty()) throw DamagedFile(fmt::format("{}: {}; simulate this run again", path, wrong));
+  return bytes;
+}
+
+/// Meshes, materials and whether they move, from the pieces at rest; by name, since scenery and pieces may come and go.
+void RunReader::readBodies(int index, Frame& frame) const {
+  requireFrame(index);
+  const std::string name = FrameFileNames(index).bodies, rest = (run_ / "pieces.glb").string();
+  bodiesFromJson(bytes(name), (run_ / name).string(), frame);
+  if (frame.bodies.empty()) return;
+  std::call_once(atRest_->read, [&] {
+    for (FrameBody& body : piecesFromGlb(bytes("pieces.glb"), rest))
+      atRest_->pieces.emplace(body.name, std::move(body));
+  });
+  for (FrameBody& body : frame.bodies) {
+    const auto found = atRest_->pieces.find(body.name);
+    if (found == atRest_->pieces.end())
+      throw DamagedFile(fmt::format("{}: has no piece named '{}'; simulate again", rest, body.name));
+    body.mesh = found->second.mesh;
+    body.material = found->second.material;
+    body.moves = found->second.moves;
+  }
+}
+
 Frame readFrame(const fs::path& run, int index, bool withGas) {
-  const Manifest manifest = readManifest(run);
-  requireFrame(run, manifest, index);
+  const RunReader reader(run);
   const FrameFileNames names(index);
-  const auto bytes = [&](const std::string& name) { return checkedBytes(run, manifest, name); };
   const auto pathOf = [&](const std::string& name) { return (run / name).string(); };
   Frame frame;
-  bodiesFromJson(bytes(names.bodies), pathOf(names.bodies), frame);
-  addMeshes(run, manifest, frame.bodies);
-  frame.particles = particlesFromPly(bytes(names.particles), pathOf(names.particles));
-  frame.report = reportFromJson(bytes(names.report), pathOf(names.report));
-  if (withGas) frame.gas = gasFromVdb(bytes(names.gas), pathOf(names.gas));
+  reader.readBodies(index, frame);
+  frame.particles = particlesFromPly(reader.bytes(names.particles), pathOf(names.particles));
+  frame.report = reportFromJson(reader.bytes(names.report), pathOf(names.report));
+  if (withGas) frame.gas = gasFromVdb(reader.bytes(names.gas), pathOf(names.gas));
   return frame;
 }
 

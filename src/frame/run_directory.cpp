@@ -179,14 +179,6 @@ std::string RunDirectory::addInput(const fs::path& source) {
   return name;
 }
 
-int RunDirectory::lastFrame() const {
-  const auto isWhole = [&](int index) {
-    const auto names = FrameFileNames(index).all();
-    return std::all_of(names.begin(), names.end(), [&](const std::string& name) { return manifest_.contains(name); });
-  };
-  int last = 0;
-  while (isWhole(last + 1)) ++last;
-  return last;
-}
+int RunDirectory::lastFrame() const { return lastWholeFrame(manifest_); }
 
 }  // namespace brisance

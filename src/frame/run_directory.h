@@ -66,6 +66,32 @@ std::string frameFile(const std::string& folder, const std::string& stem, int in
 /// Reads only; no lock.
 std::map<std::string, ManifestEntry> readManifest(const std::filesystem::path& run);
 
+/// Reads the frames of a run, by one look at its manifest; no lock. A file's hash is checked against the manifest
+/// before a parser sees it.
+class RunReader {
+ public:
+  /// Throws InputError where there is no run.
+  explicit RunReader(const std::filesystem::path& run);
+  ~RunReader();
+  RunReader(const RunReader&) = delete;
+  RunReader& operator=(const RunReader&) = delete;
+
+  /// The frames 1..N that are there whole: N.
+  int lastFrame() const;
+  /// Throws InputError for a frame that is not there, naming those that are.
+  void requireFrame(int index) const;
+  /// Fills index, time and bodies, these with meshes and materials from pieces.glb. May be called from several threads.
+  void readBodies(int index, Frame& frame) const;
+  /// The bytes of a file. Throws DamagedFile.
+  std::string bytes(const std::string& name) const;
+
+ private:
+  struct AtRest;
+  std::filesystem::path run_;
+  std::map<std::string, ManifestEntry> manifest_;
+  std::unique_ptr<AtRest> atRest_;
+};
+
 /// A frame as it was written, its files' hashes checked against the manifest before a parser sees them. The gas is read
 /// only on request. Bodies' meshes come from pieces.glb.
 Frame readFrame(const std::filesystem::path& run, int index, bool withGas);

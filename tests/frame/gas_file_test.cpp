@@ -87,6 +87,38 @@ TEST(GasFile, EachVoxelLiesWhereItsCellIs) {
       }
 }
 
+/// A point of the gas at (x, y, z) lies at (x, -z, y) where z is up, and what flew along (x, y, z) flies along the
+/// same.
+TEST(GasFile, WhereZIsUpTheGasLiesAndFliesTurned) {
+  const ScratchDirectory scratch;
+  const FrameGas gas = sampleGas();
+  writeDurably(scratch / "gas.vdb", gasToVdb(gas, {"velocity", true}));
+  const auto grid = openvdb::gridPtrCast<openvdb::Vec3SGrid>(openWithTheLibrary(scratch / "gas.vdb", "velocity"));
+  const openvdb::Coord cell(9, 11, 13);
+  const Vec3d before = gas.velocity.origin + Vec3d(9, 11, 13) * gas.velocity.cellSize;
+  const openvdb::Vec3d place = grid->indexToWorld(cell);
+  EXPECT_NEAR(length(Vec3d(place.x(), place.y(), place.z()) - Vec3d(before.x, -before.z, before.y)), 0, 1e-15);
+  const float v = ballOfNoise(0)(9, 11, 13);  // sampleGas flies along (v, -2 v, 1 + v)
+  ASSERT_NE(v, 0);
+  EXPECT_EQ(grid->tree().getValue(cell), openvdb::Vec3s(v, -(1 + v), -2 * v));
+  for (const char* name : {"density", "temperature", "flame"}) {
+    const auto other = openWithTheLibrary(scratch / "gas.vdb", name);
+    EXPECT_EQ(other->transform(), grid->transform()) << name;
+    EXPECT_GT(other->transform().baseMap()->determinant(), 0) << "turned, not mirrored";
+  }
+  const auto temperature =
+      openvdb::gridPtrCast<openvdb::FloatGrid>(openWithTheLibrary(scratch / "gas.vdb", "temperature"));
+  EXPECT_EQ(temperature->tree().getValue(cell), ballOfNoise(300)(9, 11, 13));
+}
+
+TEST(GasFile, OtherConventionsMakeAnotherFile) {
+  const FrameGas gas = sampleGas();
+  const auto uuid = [](const std::string& bytes) { return bytes.substr(21, 36); };
+  EXPECT_EQ(gasToVdb(gas, {}), gasToVdb(gas));
+  EXPECT_EQ(gasToVdb(gas, {"velocity", true}), gasToVdb(gas, {"velocity", true}));
+  EXPECT_NE(uuid(gasToVdb(gas, {"velocity", true})), uuid(gasToVdb(gas)));
+}
+
 TEST(GasFile, HoldsFourGrids) {
   const ScratchDirectory scratch;
   writeGas(scratch / "gas.vdb", sampleGas());
