@@ -124,11 +124,16 @@ void RunDirectory::replaceOldRun() {
   removeEmptyFolders(path_);
 }
 
-/// Files that somebody deleted or cut off since are made again.
+/// Files that somebody deleted or cut off since are made again. Checkpoints that the manifest does not know go: a
+/// process was killed between forgetting and deleting them.
 void RunDirectory::continueOldRun() {
   manifest_ = readManifest(path_);
   if (std::erase_if(manifest_, [&](const auto& item) { return !hasRecordedSize(path_ / item.first, item.second); }) > 0)
     writeManifest();
+  std::vector<std::string> forgotten = runFilesIn(path_);
+  std::erase_if(forgotten,
+                [&](const auto& name) { return !name.starts_with("checkpoints/") || manifest_.contains(name); });
+  deleteFiles(path_, forgotten);
 }
 
 void RunDirectory::writeManifest() { writeDurably(path_ / manifestName, manifestToJson(manifest_)); }

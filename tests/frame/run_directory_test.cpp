@@ -176,6 +176,19 @@ pid_t startEndlessRun(const fs::path& path) {
   for (int index = 1;; ++index) run.addFrame(sampleFrame(index));
 }
 
+TEST(RunDirectory, ResumeDeletesACheckpointThatWasForgottenButNotDeleted) {
+  const ScratchDirectory scratch;
+  const fs::path path = scratch / "run";
+  makeRun(path);
+  RunDirectory(path, Mode::open).add("checkpoints/checkpoint.0002.bin", "known");
+  std::ofstream(path / "checkpoints/checkpoint.0001.bin") << "forgotten";
+  std::ofstream(path / "checkpoints/notes.txt") << "somebody's";
+  RunDirectory(path, Mode::resume);
+  EXPECT_TRUE(fs::exists(path / "checkpoints/checkpoint.0002.bin"));
+  EXPECT_FALSE(fs::exists(path / "checkpoints/checkpoint.0001.bin"));
+  EXPECT_TRUE(fs::exists(path / "checkpoints/notes.txt"));
+}
+
 TEST(RunDirectory, KilledAtAnyMomentItResumes) {
   for (int delay = 0; delay < 30; ++delay) {
     const ScratchDirectory scratch;
