@@ -33,7 +33,9 @@ struct CosinePlans {
   }
   CosinePlans(const CosinePlans&) = delete;
   CosinePlans& operator=(const CosinePlans&) = delete;
-  float* row(int j, int k) const { return values + static_cast<std::size_t>(n.x) * (j + static_cast<std::size_t>(n.y) * k); }
+  float* row(int j, int k) const {
+    return values + static_cast<std::size_t>(n.x) * (j + static_cast<std::size_t>(n.y) * k);
+  }
 };
 
 std::vector<float> eigenvalues(int n) {

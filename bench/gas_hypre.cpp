@@ -91,8 +91,8 @@ class HypreSystem {
       for (int i = 0; i < n_.x; ++i) {
         const double u = share.u(i + 1, j, k), v = share.v(i, j + 1, k), w = share.w(i, j, k + 1);
         const double sum = share.u(i, j, k) + u + share.v(i, j, k) + v + share.w(i, j, k) + w;
-        values.insert(values.end(), {sum > 0 ? sum : 1, i + 1 < n_.x ? -u : 0, j + 1 < n_.y ? -v : 0,
-                                     k + 1 < n_.z ? -w : 0});
+        values.insert(values.end(),
+                      {sum > 0 ? sum : 1, i + 1 < n_.x ? -u : 0, j + 1 < n_.y ? -v : 0, k + 1 < n_.z ? -w : 0});
       }
     });
     HYPRE_StructMatrixSetBoxValues(matrix_, lower_, upper_, entries, numbers, values.data());

@@ -163,8 +163,8 @@ struct Pose {
   friend Vec3d operator*(const Pose& pose, const Vec3d& p) { return rotate(pose.orientation, p) + pose.position; }
 };
 
-/// exp, log, sine/cosine and arc tangent in double from +, -, *, / alone: the same bits on every processor, where the C library
-/// picks variants with fused multiply-add by what it runs on. Relative error below 1e-15.
+/// exp, log, sine/cosine and arc tangent in double from +, -, *, / alone: the same bits on every processor, where the C
+/// library picks variants with fused multiply-add by what it runs on. Relative error below 1e-15.
 double portableExp(double x);
 double portableLog(double x);  ///< of x > 0
 struct SinCos {

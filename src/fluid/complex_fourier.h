@@ -67,10 +67,10 @@ void butterfly(ComplexLines x, int gap, const Complex* w) {
   const std::int64_t g = static_cast<std::int64_t>(gap) * lanes;
 #pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
-    const auto in = [&](int p) {
-      return p == 0 ? x.load(l) : turned<first && twiddled>(x.load(p * g + l), w, p);
+    const auto in = [&](int p) { return p == 0 ? x.load(l) : turned < first && twiddled > (x.load(p * g + l), w, p); };
+    const auto out = [&](int p, Complex y) {
+      x.store(p * g + l, p == 0 ? y : turned < !first && twiddled > (y, w, p));
     };
-    const auto out = [&](int p, Complex y) { x.store(p * g + l, p == 0 ? y : turned<!first && twiddled>(y, w, p)); };
     if constexpr (radix == 2) {
       const Complex a = in(0), b = in(1);
       out(0, a + b);

@@ -24,7 +24,8 @@ using Vector [[gnu::vector_size(64)]] = float;
 
 /// Exchanges bit `distance` of the row number with that of the column number.
 template <int distance, std::size_t... lane>
-[[gnu::target("avx512f"), gnu::always_inline]] inline void exchange(Vector& a, Vector& b, std::index_sequence<lane...>) {
+[[gnu::target("avx512f"), gnu::always_inline]] inline void exchange(Vector& a, Vector& b,
+                                                                    std::index_sequence<lane...>) {
   const Vector low = __builtin_shufflevector(a, b, (lane & distance ? tile + lane - distance : lane)...);
   const Vector high = __builtin_shufflevector(a, b, (lane & distance ? tile + lane : lane + distance)...);
   a = low;

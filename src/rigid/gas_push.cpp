@@ -49,7 +49,7 @@ struct SurfaceDrag {
 };
 
 SurfaceDrag gather(const RigidBodies& bodies, std::size_t b, const MacVelocity& gas, const Drag& push,
-            const MeanArea& mean) {
+                   const MeanArea& mean) {
   const Vec3i n = gas.cells();
   const double h = gas.u.cellSize;
   const Vec3d corner = gas.u.origin - Vec3d(0, .5, .5) * h;

@@ -159,7 +159,8 @@ TEST(PressurePush, TheImpulseOnBodiesAndWallsIsWhatTheGasLoses) {
         double carried = 0, bodies = 0;
         for (const BodyFace& f : gas.solid.bodyFaces) {
           const Vec3d place = gas.velocity.component(f.axis).position(f.face.x, f.face.y, f.face.z);
-          const Vec3d change = gas.solid.bodies[f.body].velocityAt(place) - before.solid.bodies[f.body].velocityAt(place);
+          const Vec3d change =
+              gas.solid.bodies[f.body].velocityAt(place) - before.solid.bodies[f.body].velocityAt(place);
           if (f.axis == axis) carried += f.share * change[axis] * std::pow(s.cellSize, 3);
         }
         for (std::size_t b = 0; b < gas.solid.bodies.size(); ++b)

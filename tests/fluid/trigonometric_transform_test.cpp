@@ -58,7 +58,8 @@ TEST(LineTransform, TheInverseGivesNTimesTheSamplesBack) {
 double neighbour(AxisEnds ends, int n, int k, int j) {
   if (j >= 0 && j < n) return modeValue(ends, n, k, j);
   if (ends == AxisEnds::periodic) return modeValue(ends, n, k, (j + n) % n);
-  const bool openHere = ends == AxisEnds::open || (j < 0 ? ends == AxisEnds::openThenWall : ends == AxisEnds::wallThenOpen);
+  const bool openHere =
+      ends == AxisEnds::open || (j < 0 ? ends == AxisEnds::openThenWall : ends == AxisEnds::wallThenOpen);
   return (openHere ? -1 : 1) * modeValue(ends, n, k, j < 0 ? 0 : n - 1);
 }
 
