@@ -19,7 +19,8 @@ function(brisance_tests folder)
 endfunction()
 
 foreach(folder base grid mesh particles rigid fracture frame simulation render scene)
-  brisance_tests(${folder} USES ${folder} sample_meshes LIBRARIES nlohmann_json::nlohmann_json Eigen3::Eigen)
+  brisance_tests(${folder} USES ${folder} sample_meshes
+    LIBRARIES nlohmann_json::nlohmann_json Eigen3::Eigen PkgConfig::OPENEXR)
 endforeach()
 brisance_tests(fluid USES fluid sample_meshes textbook_flows LIBRARIES nlohmann_json::nlohmann_json)
 brisance_tests(assets USES fracture sample_meshes)

@@ -47,8 +47,8 @@ CameraKey cameraAt(const CameraSettings& settings, double time) {
 }
 
 Camera::Camera(const CameraKey& key, int width, int height)
-    : position_(key.position), focusDistance_(key.focusDistance) {
-  const Vec3d forward = normalized(key.lookAt - key.position);
+    : position_(key.position), forward_(normalized(key.lookAt - key.position)), focusDistance_(key.focusDistance) {
+  const Vec3d& forward = forward_;
   Vec3d right = cross(forward, key.up);
   constexpr double nearlyAlong = 1e-9;
   if (length(right) <= nearlyAlong * length(key.up))
@@ -64,6 +64,12 @@ Camera::Camera(const CameraKey& key, int width, int height)
 }
 
 Vec3d Camera::direction(double x, double y) const { return normalized(upperLeft_ + right_ * x + down_ * y); }
+
+Vec2d Camera::pixel(const Vec3d& place) const {
+  const Vec3d way = place - position_;
+  const Vec3d fromCorner = way / dot(way, forward_) - upperLeft_;
+  return {dot(fromCorner, right_) / dot(right_, right_), dot(fromCorner, down_) / dot(down_, down_)};
+}
 
 CameraWay Camera::way(double x, double y, const Vec2<float>& lens) const {
   const Vec3d ahead = upperLeft_ + right_ * x + down_ * y;  // 1 along the view

@@ -20,6 +20,10 @@ class Camera {
   /// A picture of `width` x `height` square pixels. Where `up` is along the view, another axis stands in for it.
   Camera(const CameraKey& key, int width, int height);
   const Vec3d& position() const { return position_; }
+  /// Unit, to the middle of the picture.
+  const Vec3d& forward() const { return forward_; }
+  /// Where the picture has a place that lies before the camera; the inverse of direction().
+  Vec2d pixel(const Vec3d& place) const;
   /// Unit direction through a place of the picture: (0, 0) its upper left corner, (width, height) its lower right one.
   Vec3d direction(double x, double y) const;
   /// The way through that place and a place of the lens, both of `lens` uniform in 0 .. 1: all ways of a picture place
@@ -27,9 +31,10 @@ class Camera {
   CameraWay way(double x, double y, const Vec2<float>& lens) const;
 
  private:
-  Vec3d position_, upperLeft_, right_, down_;  ///< upperLeft_ + x right_ + y down_: through pixel place (x, y)
-  Vec3d lensRight_, lensUp_;                   ///< [m] radii of the lens
-  double focusDistance_;                       ///< [m]
+  Vec3d position_, forward_;
+  Vec3d upperLeft_, right_, down_;  ///< upperLeft_ + x right_ + y down_: through pixel place (x, y)
+  Vec3d lensRight_, lensUp_;        ///< [m] radii of the lens
+  double focusDistance_;            ///< [m]
 };
 
 }  // namespace brisance

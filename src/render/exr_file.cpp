@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 
 #include <cstring>
 
@@ -54,23 +55,37 @@ class StringSource : public Imf::IStream {
 };
 
 /// Describes `pixels`, packed red green blue in rows of the window, to the library.
-template <class T>
-Imf::FrameBuffer frameBuffer(T* pixels, Imf::PixelType type, const Imath::Box2i& window) {
+Imf::FrameBuffer frameBuffer(float* pixels, const Imath::Box2i& window) {
   Imf::FrameBuffer buffer;
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
   for (int channel = 0; channel < 3; ++channel)
     buffer.insert(channelNames[channel],
-                  Imf::Slice::Make(type, pixels + channel, window, 3 * sizeof(T), 3 * sizeof(T) * width));
+                  Imf::Slice::Make(Imf::FLOAT, pixels + channel, window, 3 * sizeof(float), 3 * sizeof(float) * width));
   return buffer;
 }
 
-std::vector<half> halves(const Image& image) {
-  std::vector<half> values;
-  values.reserve(3 * image.pixels.size());
-  for (const Vec3f& pixel : image.pixels)
-    for (int channel = 0; channel < 3; ++channel)
-      values.push_back(half(std::clamp(pixel[channel], -largestHalf, largestHalf)));
-  return values;
+/// A channel's values as the file holds them.
+struct PlaneOfFile {
+  std::vector<half> halves;
+  std::vector<float> floats;
+};
+
+PlaneOfFile planeOf(const ExrChannel& channel, std::size_t pixels) {
+  PlaneOfFile plane;
+  channel.whole ? plane.floats.reserve(pixels) : plane.halves.reserve(pixels);
+  for (std::size_t p = 0; p < pixels; ++p) {
+    const float value = channel.values[p * channel.step];
+    if (channel.whole)
+      plane.floats.push_back(value);
+    else
+      plane.halves.push_back(half(std::clamp(value, -largestHalf, largestHalf)));
+  }
+  return plane;
+}
+
+Imf::Slice sliceOf(PlaneOfFile& plane, const Imath::Box2i& window) {
+  return plane.floats.empty() ? Imf::Slice::Make(Imf::HALF, plane.halves.data(), window)
+                              : Imf::Slice::Make(Imf::FLOAT, plane.floats.data(), window);
 }
 
 Image readChannels(Imf::InputFile& file, const std::string& fileName) {
@@ -81,7 +96,7 @@ Image readChannels(Imf::InputFile& file, const std::string& fileName) {
   const Picture claimed =
       emptyPicture(extent(window.min.x, window.max.x), extent(window.min.y, window.max.y), fileName);
   Image image(claimed.width, claimed.height);
-  file.setFrameBuffer(frameBuffer(&image.pixels.front().x, Imf::FLOAT, window));
+  file.setFrameBuffer(frameBuffer(&image.pixels.front().x, window));
   file.readPixels(window.min.y, window.max.y);
   return image;
 }
@@ -89,16 +104,30 @@ Image readChannels(Imf::InputFile& file, const std::string& fileName) {
 }  // namespace
 
 std::string encodeExr(const Image& image) {
-  Imf::Header header(image.width, image.height);
+  std::vector<ExrChannel> channels;
+  for (int c = 0; c < 3; ++c) channels.push_back({channelNames[c], &image.pixels.front().x + c, 3});
+  return encodeExr(image.width, image.height, channels, {});
+}
+
+std::string encodeExr(int width, int height, const std::vector<ExrChannel>& channels,
+                      const std::map<std::string, std::string>& texts) {
+  Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
-  for (const char* name : channelNames) header.channels().insert(name, Imf::Channel(Imf::HALF));
-  std::vector<half> values = halves(image);
+  for (const auto& [name, text] : texts) header.insert(name, Imf::StringAttribute(text));
+  std::vector<PlaneOfFile> planes;
+  for (const ExrChannel& channel : channels) {
+    header.channels().insert(channel.name, Imf::Channel(channel.whole ? Imf::FLOAT : Imf::HALF));
+    planes.push_back(planeOf(channel, static_cast<std::size_t>(width) * height));
+  }
+  Imf::FrameBuffer buffer;
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    buffer.insert(channels[c].name, sliceOf(planes[c], header.dataWindow()));
   StringSink sink;
   {
     constexpr int threads = 0;  // work in this thread: the library's own pool would ignore the user's limit
     Imf::OutputFile file(sink, header, threads);
-    file.setFrameBuffer(frameBuffer(values.data(), Imf::HALF, header.dataWindow()));
-    file.writePixels(image.height);
+    file.setFrameBuffer(buffer);
+    file.writePixels(height);
   }
   return std::move(sink.bytes);
 }

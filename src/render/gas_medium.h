@@ -92,10 +92,13 @@ class GasMedium {
   /// Where light going this way is absorbed or scattered first, drawn by delta tracking (Woodcock et al. 1965) with the
   /// largest density of each block; nothing when it passes. [m]
   std::optional<float> collision(const GasPath& path, NumberRun& numbers) const;
-  /// The light that a place gives off per metre. [radiance/m]
-  Vec3f emissionAt(const Vec3f& place) const;
-  /// The part of the volume that the cells of a block fill. [m]
-  Box3 blockBox(int i, int j, int k) const;
+  /// The light that a place [cells from sample (0, 0, 0)] gives off per metre. [radiance/m]
+  Vec3f emissionAtCell(const Vec3f& place) const;
+  /// That place in metres.
+  Vec3f placeOf(const Vec3f& place) const { return origin_ + place * cellSize_; }
+  /// Whether there are samples at all corners of the cell that begins at sample `lower`.
+  bool isBetweenSamples(const Vec3i& lower) const { return max(lower + Vec3i(2, 2, 2), size_) == size_; }
+  float cellSize() const { return cellSize_; }  ///< [m]
 
   /// What a block's gas gives off: the integral of extinction times glow over its cells, [radiance m2].
   const Grid3<Vec3f>& blockGlow() const { return blockGlow_; }

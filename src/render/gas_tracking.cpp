@@ -15,7 +15,7 @@ GasPassage GasMedium::marchShared(const GasPath& path, float density, const Fire
       const Vec3f before = passage.light;
       addStep(step.place, step.to - step.from, passage);
       const float distance = 0.5f * (step.from + step.to);
-      const float drawn = fire.density(step.block) * distance * distance;  // [1/sr] there
+      const float drawn = fire.density(step.block, step.place) * distance * distance;  // [1/sr] there
       passage.light = before + (passage.light - before) * (density / (density + drawn));
       return passage.transmittance > 0;
     });
@@ -76,21 +76,9 @@ std::optional<float> GasMedium::collisionHere(GasPath path, NumberRun& numbers) 
   return std::nullopt;
 }
 
-Vec3f GasMedium::emissionAt(const Vec3f& place) const {
-  const GasSample sample = sampleAt((place - origin_) * (1 / cellSize_));
+Vec3f GasMedium::emissionAtCell(const Vec3f& place) const {
+  const GasSample sample = sampleAt(place);
   return sample.density() > 0 ? sample.light() * optics_.extinction(sample.density()) : Vec3f{};
-}
-
-Box3 GasMedium::blockBox(int i, int j, int k) const {
-  const Vec3i block{i, j, k};
-  Box3 box;
-  for (int axis = 0; axis < 3; ++axis) {
-    // The outermost cells reach half a cell beyond their samples.
-    const double last = size_[axis] - 0.5;
-    box.lower[axis] = origin_[axis] + cellSize_ * (block[axis] == 0 ? -0.5 : block[axis] * blockCells);
-    box.upper[axis] = origin_[axis] + cellSize_ * std::min<double>((block[axis] + 1) * blockCells, last);
-  }
-  return box;
 }
 
 }  // namespace brisance

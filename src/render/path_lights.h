@@ -76,8 +76,8 @@ class ArrivingLights {
   /// The emission of a place, seen at a distance, is divided by its square: with the density per volume that square is
   /// the density per solid angle and metre.
   Vec3f fromFire(SampleSequence& numbers) const {
-    const Vec2<float> choice = numbers.pair();
-    const FireSample drawn = world_.fire->sample(choice.x, numbers.pair(), choice.y);
+    const Vec2<float> choice = numbers.pair(), across = numbers.pair();
+    const FireSample drawn = world_.fire->sample(choice, across, numbers.number());
     const Vec3f way = drawn.place - place_;
     const float distance2 = dot(way, way), distance = std::sqrt(distance2);
     if (!(distance > 0) || drawn.emission == Vec3f{}) return {};

@@ -7,7 +7,7 @@
 #include "render/blackbody.h"
 #include "render/environment.h"
 #include "render/gas_medium.h"
-#include "render/image.h"
+#include "render/picture_layers.h"
 #include "render/render_settings.h"
 #include "render/textures.h"
 
@@ -30,18 +30,18 @@ struct RenderScratch {
   SampleMemory samples;
 };
 
-/// When a picture is taken. The shutter opens half of its time before `filmTime` and closes half after.
-struct PictureTime {
-  double filmTime = 0;              ///< [s] of film: where the camera's keys are
-  double frameDuration = 1.0 / 24;  ///< [s] of film per frame
-  double simulatedPerFilm = 1;  ///< simulated seconds per second of film: how far bodies move while the shutter is open
+/// Light, and what else is known of each pixel.
+struct DrawnPicture {
+  Image light;           ///< scene-linear
+  Image variance;        ///< of `light`; empty without layers
+  PictureLayers layers;  ///< empty unless the settings ask for an OpenEXR file with layers
 };
 
 /// Draws a frame: the same bits for any number of threads. Throws InputError naming the body and the material when the
 /// settings do not know a body's material. `assets` were made from the same settings.
-Image renderFrame(const Frame& frame, const RenderSettings& settings, const RenderAssets& assets,
-                  const PictureTime& time, RenderScratch& scratch);
-/// One frame alone, camera at film time `frame.time`.
+DrawnPicture drawPicture(const Frame& frame, const RenderSettings& settings, const RenderAssets& assets,
+                         const PictureTime& time, RenderScratch& scratch);
+/// The light of one frame alone, camera at film time `frame.time`.
 Image renderFrame(const Frame& frame, const RenderSettings& settings);
 
 }  // namespace brisance

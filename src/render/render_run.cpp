@@ -3,8 +3,8 @@
 #include <chrono>
 
 #include "base/check.h"
+#include "render/layer_file.h"
 #include "render/picture_file.h"
-#include "render/render_frame.h"
 
 namespace brisance {
 namespace {
@@ -40,9 +40,9 @@ bool isDrawn(const RunDirectory& run, int index, bool wantsExr) {
   return holds(run, pictureFile(index, "png")) && (!wantsExr || holds(run, pictureFile(index, "exr")));
 }
 
-void addPictures(RunDirectory& run, int index, const Image& image, const RenderSettings& settings) {
-  if (settings.writeExr) run.add(pictureFile(index, "exr"), encodeExr(image), contentHash(image));
-  const Picture picture = developed(image, settings.exposureStops);
+void addPictures(RunDirectory& run, int index, const DrawnPicture& drawn, const RenderSettings& settings) {
+  if (settings.writeExr) run.add(pictureFile(index, "exr"), encodeLayers(drawn), contentHash(drawn));
+  const Picture picture = developed(drawn.light, settings.exposureStops);
   run.add(pictureFile(index, "png"), encodePng(picture), contentHash(picture));
 }
 
@@ -52,6 +52,7 @@ RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const
   const auto start = std::chrono::steady_clock::now();
   const FrameRange range = checkedRange(run, options);
   const RenderAssets assets(settings);
+  const bool readsGas = settings.volume.drawn && settings.volume.source == VolumeSource::gas;
   RenderScratch scratch;
   RenderSummary summary;
   for (int n = 0; n < range.count(); ++n) {
@@ -63,9 +64,9 @@ RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const
     if (options.skipExisting && isDrawn(run, index, settings.writeExr)) {
       ++summary.skipped;
     } else {
-      const Frame frame = readFrame(run.path(), index, false);
+      const Frame frame = readFrame(run.path(), index, readsGas);
       const PictureTime time{options.startTime + (index - 1) / options.fps, 1 / options.fps, options.timeScale};
-      addPictures(run, index, renderFrame(frame, settings, assets, time, scratch), settings);
+      addPictures(run, index, drawPicture(frame, settings, assets, time, scratch), settings);
       ++summary.rendered;
     }
     if (options.progress) options.progress("render", n + 1, range.count());

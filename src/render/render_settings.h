@@ -97,9 +97,13 @@ struct PhysicalBlackbody {
 struct TunedBlackbody {};  ///< the thesis' 2P^2 + 100P + 1000
 using BlackbodyMap = std::variant<PhysicalBlackbody, TunedBlackbody>;
 
-/// The gas drawn from its particles (appendix A.2).
+/// What the drawn gas is made from: the particles over a fine grid, or the cells of the gas itself.
+enum class VolumeSource { particles, gas };
+
+/// The gas as the picture shows it (appendix A.2).
 struct VolumeSettings {
   bool drawn = true;
+  VolumeSource source = VolumeSource::particles;
   Vec3i cells{300, 300, 300};                 ///< vx x vy x vz
   Vec3d corner;                               ///< [m]
   double cellSize = 1.0 / 300;                ///< [m]
@@ -143,6 +147,8 @@ struct RenderSettings {
   Vec3f ambientLight{.1f, .1f, .1f};
   double exposureStops = 0;
   bool writeExr = true;
+  bool denoise = false;  ///< take the noise of chance from the picture
+  bool layers = true;    ///< in the OpenEXR file: depth, normal, bodies ...
   CameraSettings camera;
   std::vector<Light> lights;
   std::map<std::string, Material> materials;

@@ -36,8 +36,9 @@ constexpr double particleDisk = 33;        // position, velocity, mass, temperat
 constexpr double posedPieceDisk = 100;     // pose and velocities, per frame
 constexpr double checkpointCellDisk = 28;  // velocity, pressure, temperature, soot, flame
 constexpr double checkpointParticleDisk = 83;
-constexpr double pixelDisk = 3 + 8;    // PNG, and OpenEXR in half precision, before compression
-constexpr double filmPixelDisk = 0.5;  // of the encoded film, at a good rate factor
+constexpr double layeredPixelMemory = 700;  // variance, halves, layers, guides, the filter's planes, the encoded file
+constexpr double pixelDisk = 3, exrPixelDisk = 6, layersPixelDisk = 90;  // PNG, OpenEXR, its layers, uncompressed
+constexpr double filmPixelDisk = 0.5;                                    // of the encoded film, at a good rate factor
 
 std::int64_t clamped(double bytes) { return static_cast<std::int64_t>(std::min(bytes, 9e18)); }
 double countOf(const Vec3i& cells) { return static_cast<double>(cells.x) * cells.y * cells.z; }
@@ -61,13 +62,20 @@ double simulatingMemory(const Scene& scene, const SceneEstimate& cost) {
 
 double drawingMemory(const Scene& scene, const SceneEstimate& cost) {
   const double pixels = static_cast<double>(scene.render.width) * scene.render.height;
-  return static_cast<double>(cost.volumeCells) * volumeCellMemory + pixels * pixelMemory;
+  const bool measures = scene.render.denoise || (scene.render.writeExr && scene.render.layers);
+  return static_cast<double>(cost.volumeCells) * volumeCellMemory +
+         pixels * (pixelMemory + (measures ? layeredPixelMemory : 0));
+}
+
+double bytesPerPixel(const RenderSettings& render) {
+  const double exr = exrPixelDisk + (render.layers ? layersPixelDisk : 0);
+  return pixelDisk + filmPixelDisk + (render.writeExr ? exr : 0);
 }
 
 double diskOf(const Scene& scene, const SceneEstimate& cost) {
   const double cells = static_cast<double>(cost.cells), particles = static_cast<double>(cost.particles);
   const double pixels = static_cast<double>(scene.render.width) * scene.render.height;
-  const double frame = cells * gasCellDisk + particles * particleDisk + pixels * (pixelDisk + filmPixelDisk) +
+  const double frame = cells * gasCellDisk + particles * particleDisk + pixels * bytesPerPixel(scene.render) +
                        static_cast<double>(cost.pieces) * posedPieceDisk;
   constexpr int checkpointsKept = 2;
   return cost.frames * frame + checkpointsKept * (cells * checkpointCellDisk + particles * checkpointParticleDisk) +

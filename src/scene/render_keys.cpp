@@ -8,6 +8,7 @@ constexpr std::string_view lightNames[] = {"point", "sun", "fire"};
 constexpr std::string_view blackbodyNames[] = {"physical_blackbody", "tuned_blackbody"};
 constexpr std::string_view patternNames[] = {"none", "wood", "marble", "checkerboard"};
 constexpr std::string_view lightingNames[] = {"phong", "ashikhmin_shirley"};
+constexpr std::string_view volumeSourceNames[] = {"particles", "gas"};
 constexpr std::string_view integratorNames[] = {"whitted", "path"};
 constexpr double brightest = 1e6;  // keeps products of colours finite in single precision
 
@@ -188,6 +189,8 @@ void describeRender(KeyVisitor& v, SceneDraft& draft) {
   v.enter({"integrator", "", anyValue, "whitted: lights, mirrors, glass; path: all ways of light"}, true);
   visitAlternatives(v, integratorNames, render.integrator, IntegratorKeys{});
   v.leave();
+  visit(v, {"denoise", "", anyValue, "path integrator: take noise from the picture, guided by what the camera sees"},
+        render.denoise);
   visit(v, {"max_depth", "", between(0, 64), "of reflection and refraction"}, render.maxDepth);
   visit(v, {"seed", "", atLeast(0), "of the samples' places", {}, "scene.seed"}, draft.renderSeed);
   visit(v, {"background", "", between(0, brightest), "red, green, blue beyond the scene"}, render.background);
@@ -195,9 +198,15 @@ void describeRender(KeyVisitor& v, SceneDraft& draft) {
   visitTable(v, "environment", "light from far away", render.environment, describeEnvironment);
   visit(v, {"exposure_stops", "", between(-30, 30), "pictures are brighter by 2 to this"}, render.exposureStops);
   visit(v, {"write_exr", "", anyValue, "also the unclipped picture, as OpenEXR"}, render.writeExr);
-  visitTable(v, "volume", "the gas, drawn from its particles", draft, [](KeyVisitor& inner, SceneDraft& whole) {
+  visit(v, {"layers", "", anyValue, "in the OpenEXR file: depth, normal, albedo, motion, bodies, gas, variance"},
+        render.layers);
+  visitTable(v, "volume", "the gas as it is drawn", draft, [](KeyVisitor& inner, SceneDraft& whole) {
     visit(inner, {"drawn", "", anyValue, "false leaves fire and smoke out of the picture"},
           whole.scene.render.volume.drawn);
+    visitChoice(inner,
+                {"source", "", anyValue,
+                 "particles, over the cells below and blurred; or gas: soot, flame and heat of the gas' own cells"},
+                volumeSourceNames, whole.scene.render.volume.source);
     describeLattice(inner, whole.volume, {"vx, vy, vz", "5.1, 5.3"});
     describeVolumeLook(inner, whole.scene.render.volume);
   });

@@ -173,6 +173,10 @@ void checkPicture(const Scene& scene, const Places& places) {
   if (volume.filterSize != 0 && volume.filterSize % 2 == 0)
     places.refuse("render.volume.filter_size",
                   fmt::format("must be odd, or 0 for three deviations, got {}", volume.filterSize));
+  if (scene.render.denoise && std::holds_alternative<WhittedIntegrator>(scene.render.integrator))
+    places.refuse("render.denoise", "must be false unless render.integrator is path: the other has no noise of chance");
+  if (scene.render.denoise && scene.render.samples < 2)
+    places.refuse("render.denoise", "needs render.samples of at least 2: half of them judge the other half");
   for (std::size_t i = 0; i < scene.render.lights.size(); ++i) {
     const auto* sun = std::get_if<SunLight>(&scene.render.lights[i]);
     if (sun != nullptr && length(sun->direction) == 0)

@@ -247,6 +247,33 @@ TEST(FireInADarkRoom, LightsTheWallsAsManyBlindPathsSay) {
   }
 }
 
+// The same over whole walls: the light that each of the six returns straight ahead, mean over its area.
+TEST(FireInADarkRoom, LightsEachWallWithinTwoPercentOfBruteForce) {
+  const GasMedium gas = fireBall();
+  const FireSampler fire(gas);
+  Room room(darkRoom("grey"), fewMaterials(), black);
+  room.gas = &gas;
+  room.settings.maxBounces = 2;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {-1.0f, 1.0f}) {
+      const auto towardsWall = [&](SampleSequence& numbers) {
+        const Vec2<float> where = numbers.pair();
+        Ray ray;
+        ray.origin[axis] = 1.4f * side;
+        ray.origin[(axis + 1) % 3] = 2.9f * (where.x - 0.5f);
+        ray.origin[(axis + 2) % 3] = 2.9f * (where.y - 0.5f);
+        ray.direction[axis] = side;
+        return ray;
+      };
+      room.fire = nullptr;
+      const Estimate blind = room.mean(60000, towardsWall);
+      room.fire = &fire;
+      const Estimate drawn = room.mean(10000, towardsWall);
+      EXPECT_LT(blind.deviation, 0.006 * blind.mean);
+      EXPECT_NEAR(drawn.mean, blind.mean, 0.02 * blind.mean) << "wall " << axis << " at " << side;
+    }
+}
+
 TEST(PathLights, SurfacesAreFoundAlikeByDrawingThemAndByChance) {
   const std::vector<FrameBody> bodies{bodyOf("lamp", boxMesh({0.8, 0.1, 0.8}), "lamp", {{0, 1, 0}, {}}),
                                       bodyOf("floor", boxMesh({6, 0.1, 6}), "brushed", {{0, -0.1, 0}, {}}),

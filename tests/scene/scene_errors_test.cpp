@@ -53,6 +53,14 @@ TEST(SceneErrors, AValueOutOfRangeNamesTheRangeAndTheUnit) {
              "s.toml:4: gas.cell_size: must be above 0 [scene units], got 0");
 }
 
+TEST(SceneErrors, NoiseIsTakenFromPathsOfTwoSamplesOrMore) {
+  expectLine(
+      "[render]\ndenoise = true\n",
+      "s.toml:2: render.denoise: must be false unless render.integrator is path: the other has no noise of chance");
+  expectLine("[render]\ndenoise = true\nintegrator = 'path'\nsamples = 1\n",
+             "s.toml:2: render.denoise: needs render.samples of at least 2: half of them judge the other half");
+}
+
 TEST(SceneErrors, WallsMoveAlongThemselvesAndStirringHasAnAxis) {
   expectLine("[gas]\nwall_velocity = { y_upper = [1, 0, 0] }\n",
              "s.toml:2: gas.wall_velocity.y_upper: must be zero: this face is not no_slip");

@@ -1,0 +1,26 @@
+// Pixels from samples: their mean, how far it may be off, and two halves that know nothing of one another.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "render/camera_rays.h"
+#include "render/image.h"
+
+namespace brisance {
+
+/// An integrator: light along a ray.
+using Follow = std::function<Vec3f(const Ray&, float phase, SampleSequence&)>;
+
+/// A picture and its noise.
+struct Exposed {
+  Image mean;                   ///< weighted mean of each pixel's samples
+  Image variance;               ///< of that mean, by the spread of the samples; 0 where there is only one
+  std::array<Image, 2> halves;  ///< means of the samples on the fields of a checkerboard: white, black
+};
+
+enum class Noise { ignored, measured };
+/// Of the picture alone when the noise is `ignored`; that picture is the same in both cases.
+Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise);
+
+}  // namespace brisance
