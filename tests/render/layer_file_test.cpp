@@ -72,7 +72,7 @@ const ReadFile& sceneFile() {
   return file;
 }
 
-constexpr int onWall = 13, onGlass = 7, onSky = 28, row = 15;
+constexpr int onWall = 13, onGlass = 3, onSky = 28, row = 15;
 
 }  // namespace
 

@@ -266,9 +266,9 @@ TEST(FireInADarkRoom, LightsEachWallWithinTwoPercentOfBruteForce) {
         return ray;
       };
       room.fire = nullptr;
-      const Estimate blind = room.mean(60000, towardsWall);
+      const Estimate blind = room.mean(250000, towardsWall);
       room.fire = &fire;
-      const Estimate drawn = room.mean(10000, towardsWall);
+      const Estimate drawn = room.mean(20000, towardsWall);
       EXPECT_LT(blind.deviation, 0.006 * blind.mean);
       EXPECT_NEAR(drawn.mean, blind.mean, 0.02 * blind.mean) << "wall " << axis << " at " << side;
     }
