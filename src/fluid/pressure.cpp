@@ -168,9 +168,8 @@ PressureReport projectBy(const ConjugateGradient& s, FluidState& gas, const Flui
 /// so many that multigrid would have been done, multigrid goes on from there. It knows periodic faces not.
 PressureReport projectBy(const AutomaticSolver& s, FluidState& gas, const FluidSettings& settings, double dt,
                          PressureScratch& scratch) {
-  constexpr int patience = 100;
   if (anyPeriodic(settings.faces)) return projectBy(FastPoisson{s.tolerance}, gas, settings, dt, scratch);
-  PressureReport report = projectBy(FastPoisson{s.tolerance, patience}, gas, settings, dt, scratch);
+  PressureReport report = projectBy(FastPoisson{s.tolerance, s.patience}, gas, settings, dt, scratch);
   if (report.converged) return report;
   const MultigridSolver rest{std::min(0.5, s.tolerance / report.residual)};
   const PressureReport further = correctByMultigrid(rest, true, gas, settings, dt, scratch);

@@ -64,7 +64,13 @@ void describeVelocityTolerance(KeyVisitor& v, double& tolerance) {
         tolerance);
 }
 
-void describePressure(KeyVisitor& v, AutomaticSolver& solver) { describeVelocityTolerance(v, solver.tolerance); }
+void describePressure(KeyVisitor& v, AutomaticSolver& solver) {
+  describeVelocityTolerance(v, solver.tolerance);
+  visit(v,
+        {"patience", "", between(1, 1e6),
+         "iterations of fast_poisson among solids, after which multigrid goes on from there"},
+        solver.patience);
+}
 void describePressure(KeyVisitor& v, FastPoisson& solver) {
   describeVelocityTolerance(v, solver.tolerance);
   visit(v, {"max_iterations", "", between(1, 1e6), giveUp}, solver.maxIterations);

@@ -39,7 +39,8 @@ void burnIntoGas(WorldState& world, const SimulationSettings& settings, double d
 }
 
 void carryParticles(WorldState& world, const SimulationSettings& settings, double dt) {
-  const GasAround around{world.gas.velocity, world.gas.temperature, world.gas.solid.openShare};
+  GasAround around{world.gas.velocity, world.gas.temperature, world.gas.solid.openShare};
+  for (int axis = 0; axis < 3; ++axis) around.periodic[axis] = settings.fluid.faces[2 * axis] == FaceKind::periodic;
   stepParticles(world.particles, around, settings.particles.burning, dt);
   ignite(world.particles, settings.particles.burning);
 }
