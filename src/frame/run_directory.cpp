@@ -5,6 +5,7 @@
 #include "base/check.h"
 #include "frame/body_file.h"
 #include "frame/gas_file.h"
+#include "frame/gltf_export.h"
 #include "frame/manifest.h"
 #include "frame/particle_file.h"
 
@@ -96,6 +97,14 @@ void removeEmptyFolders(const fs::path& run) {
   }
 }
 
+/// Bodies that took another shape in this frame.
+std::vector<FrameBody> reshapedIn(const Frame& frame) {
+  std::vector<FrameBody> bodies;
+  for (const FrameBody& body : frame.bodies)
+    if (body.shapeFrame == frame.index) bodies.push_back(body);
+  return bodies;
+}
+
 bool hasRecordedSize(const fs::path& path, const ManifestEntry& entry) {
   std::error_code error;
   return fs::file_size(path, error) == entry.file.size && !error;
@@ -168,11 +177,14 @@ void RunDirectory::remove(const std::vector<std::string>& names) {
 
 void RunDirectory::addFrame(const Frame& frame) {
   const FrameFileNames names(frame.index);
-  record(
-      {{names.gas, {writeFile(names.gas, gasToVdb(frame.gas)), contentHash(frame.gas)}},
-       {names.bodies, {writeFile(names.bodies, bodiesToJson(frame)), contentHash(frame.bodies)}},
-       {names.particles, {writeFile(names.particles, particlesToPly(frame.particles)), contentHash(frame.particles)}},
-       {names.report, {writeFile(names.report, reportToJson(frame)), ""}}});
+  std::map<std::string, ManifestEntry> entries{
+      {names.gas, {writeFile(names.gas, gasToVdb(frame.gas)), contentHash(frame.gas)}},
+      {names.bodies, {writeFile(names.bodies, bodiesToJson(frame)), contentHash(frame.bodies)}},
+      {names.particles, {writeFile(names.particles, particlesToPly(frame.particles)), contentHash(frame.particles)}},
+      {names.report, {writeFile(names.report, reportToJson(frame)), ""}}};
+  const std::vector<FrameBody> reshaped = reshapedIn(frame);
+  if (!reshaped.empty()) entries[names.shapes] = {writeFile(names.shapes, piecesToGlb(reshaped)), ""};
+  record(entries);
 }
 
 std::string RunDirectory::addInput(const fs::path& source) {

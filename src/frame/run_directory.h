@@ -80,16 +80,19 @@ class RunReader {
   int lastFrame() const;
   /// Throws InputError for a frame that is not there, naming those that are.
   void requireFrame(int index) const;
-  /// Fills index, time and bodies, these with meshes and materials from pieces.glb. May be called from several threads.
+  /// Fills index, time and bodies, these with meshes and materials from pieces.glb and
+  /// bodies/shapes.*.glb. May be called from several threads.
   void readBodies(int index, Frame& frame) const;
   /// The bytes of a file. Throws DamagedFile.
   std::string bytes(const std::string& name) const;
 
  private:
-  struct AtRest;
+  struct Shapes;
+  struct ShapeFiles;
+  std::shared_ptr<const Shapes> shapesOf(int frame) const;
   std::filesystem::path run_;
   std::map<std::string, ManifestEntry> manifest_;
-  std::unique_ptr<AtRest> atRest_;
+  std::unique_ptr<ShapeFiles> shapeFiles_;
 };
 
 /// A frame as it was written, its files' hashes checked against the manifest before a parser sees them. The gas is read

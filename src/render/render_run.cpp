@@ -4,6 +4,7 @@
 
 #include "base/check.h"
 #include "render/picture_file.h"
+#include "render/piece_paint.h"
 #include "render/render_frame.h"
 
 namespace brisance {
@@ -63,9 +64,11 @@ RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const
     if (options.skipExisting && isDrawn(run, index, settings.writeExr)) {
       ++summary.skipped;
     } else {
-      const Frame frame = readFrame(run.path(), index, false);
+      Frame frame = readFrame(run.path(), index, false);
+      RenderSettings look = settings;
+      paintPieces(frame.bodies, look.materials, assets.heat);
       const PictureTime time{options.startTime + (index - 1) / options.fps, 1 / options.fps, options.timeScale};
-      addPictures(run, index, renderFrame(frame, settings, assets, time, scratch), settings);
+      addPictures(run, index, renderFrame(frame, look, assets, time, scratch), settings);
       ++summary.rendered;
     }
     if (options.progress) options.progress("render", n + 1, range.count());

@@ -71,6 +71,8 @@ struct Material {
   Vec3f absorption{0, 0, 0};  ///< [1/m] inside glass
   bool smooth = false;        ///< Phong shading: normals between vertices
   bool castsShadow = true;
+  double pieceTint = 0;  ///< how far the hues of pieces lie apart: 0 all alike .. 1
+  double glow = 0;       ///< times the blackbody colour of a body's temperature: what it shines with
 };
 
 struct PointLight {

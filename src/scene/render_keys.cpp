@@ -176,6 +176,11 @@ void describeMaterial(KeyVisitor& v, MaterialKeys& keys) {
   visit(v, {"absorption", "1/m", between(0, brightest), "inside glass"}, material.absorption);
   visit(v, {"smooth", "", anyValue, "normals go smoothly between vertices"}, material.smooth);
   visit(v, {"casts_shadow", "", anyValue, "false lets light through"}, material.castsShadow);
+  visit(v, {"piece_tint", "", between(0, 1), "how far the hues of pieces with one colour lie apart"},
+        material.pieceTint);
+  visit(v,
+        {"glow", "", between(0, brightest), "times the blackbody colour of a piece's temperature, it shines with that"},
+        material.glow);
 }
 
 void describeLight(KeyVisitor& v, Light& light) { visitAlternatives(v, lightNames, light, LightKeys{}); }

@@ -146,6 +146,8 @@ void checkBody(const BodySettings& body, const std::string& path, const Places& 
   if (rectangle && body.moves) places.refuse(path + ".moves", "must be false: a rectangle is scenery");
   if (body.blocksGas && (body.moves || rectangle))
     places.refuse(path + ".blocks_gas", "must be false: only solid scenery (moves = false, no rectangle) blocks gas");
+  if (body.swells && (!body.moves || body.fracture.solid.enabled || std::holds_alternative<PaneSettings>(body.shape)))
+    places.refuse(path + ".swells", "must be false: only a hollow body that moves swells, no pane and no solid pieces");
   checkFracture(body, path + ".fracture", places);
 }
 
@@ -155,6 +157,8 @@ void checkBodies(const Scene& scene, const Places& places) {
     const BodySettings& body = scene.simulation.bodies[i];
     const std::string path = places.elementPath("bodies", body.name, i);
     checkBody(body, path, places);
+    if (body.swells && scene.simulation.bodiesInGas == BodiesInGas::block)
+      places.refuse(path + ".swells", "must be false where gas.bodies is block: gas passes through what it swells");
     if (!names.insert(body.name).second)
       places.refuse(path + ".name", fmt::format("must be unique, \"{}\" is there twice", body.name));
     if (scene.render.materials.count(body.material) != 0) continue;

@@ -245,6 +245,8 @@ void describeBodyPlace(KeyVisitor& v, BodyKeys& keys) {
   visit(v, {"moves", "", anyValue, "false for scenery", {}, "true; false for a rectangle"}, keys.moves);
   visit(v, {"blocks_gas", "", anyValue, "scenery that gas flows around"}, keys.body.blocksGas);
   visit(v, {"release_time", "s", atLeast(0), "until then it rests in place; simulated time"}, keys.body.releaseTime);
+  visit(v, {"swells", "", anyValue, "until its release gas carries the vertices of its surface: a balloon"},
+        keys.body.swells);
 }
 
 void describeBodyMass(KeyVisitor& v, BodyKeys& keys) {
@@ -370,6 +372,14 @@ void describeBody(KeyVisitor& v, BodyKeys& keys) {
   visit(v, {"material", "", anyValue, "name of one of the materials"}, keys.body.material);
   describeBodyMass(v, keys);
   visit(v, {"temperature", "K", atLeast(0), "of the body"}, keys.body.temperature);
+  visit(v,
+        {"warming_time",
+         "s",
+         atLeast(0),
+         "in which a piece comes to the mean temperature of the gas at its surface, to 1/e",
+         {},
+         "none: it keeps its temperature"},
+        keys.body.warmingTime);
   visitTable(v, "fracture", "how it breaks, before time starts", keys.body.fracture, describeFracture);
 }
 

@@ -76,7 +76,8 @@ Frame captureFrame(const WorldState& world, const SimulationSettings& settings) 
                             b.linearVelocity[n],
                             b.angularVelocity[n],
                             world.looks[n].temperature,
-                            world.looks[n].moves});
+                            world.looks[n].moves,
+                            world.looks[n].shapeFrame});
   return frame;
 }
 

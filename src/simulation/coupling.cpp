@@ -2,8 +2,10 @@
 
 #include "base/parallel.h"
 #include "base/vector_path.h"
+#include "grid/interpolate.h"
 #include "particles/burning.h"
 #include "particles/particle_step.h"
+#include "rigid/swelling.h"
 
 namespace brisance {
 
@@ -43,6 +45,35 @@ void carryParticles(WorldState& world, const SimulationSettings& settings, doubl
   for (int axis = 0; axis < 3; ++axis) around.periodic[axis] = settings.fluid.faces[2 * axis] == FaceKind::periodic;
   stepParticles(world.particles, around, settings.particles.burning, dt);
   ignite(world.particles, settings.particles.burning);
+}
+
+void swellBodies(WorldState& world, double dt) {
+  RigidBodies& bodies = world.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    BodyLook& look = world.looks[b];
+    if (!look.swelling) continue;
+    look.shapeFrame = world.frame + 1;
+    look.swelling = !bodies.isFree(b, world.time);
+    if (!look.swelling) {
+      stiffen(bodies, b, world.gas.velocity);
+      continue;
+    }
+    const Pose pose{bodies.position[b], bodies.orientation[b]};
+    bodies.mesh[b] = std::make_shared<const TriangleMesh>(carriedByGas(*bodies.mesh[b], pose, world.gas.velocity, dt));
+  }
+}
+
+void warmBodies(WorldState& world, double dt) {
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    BodyLook& look = world.looks[b];
+    if (!look.warmingTime) continue;
+    const Pose pose{world.bodies.position[b], world.bodies.orientation[b]};
+    double sum = 0;
+    for (const Vec3d& vertex : world.bodies.mesh[b]->vertices) sum += interpolate(world.gas.temperature, pose * vertex);
+    const double around = sum / static_cast<double>(world.bodies.mesh[b]->vertices.size());
+    const double kept = *look.warmingTime > 0 ? portableExp(-dt / *look.warmingTime) : 0;
+    look.temperature = around + (look.temperature - around) * kept;
+  }
 }
 
 namespace {

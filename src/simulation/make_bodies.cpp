@@ -61,7 +61,8 @@ void addPiece(const BodySettings& settings, const Piece& piece, const std::strin
   bodies.mesh.push_back(std::make_shared<const TriangleMesh>(piece.mesh));
   bodies.area.push_back(piece.properties.area);
   bodies.releaseTime.push_back(settings.releaseTime);
-  world.looks.push_back({settings.material, settings.temperature, moves});
+  world.looks.push_back(
+      {settings.material, settings.temperature, moves, settings.warmingTime, settings.swells, settings.swells, 0});
 }
 }  // namespace
 

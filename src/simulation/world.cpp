@@ -47,6 +47,8 @@ void substep(WorldState& world, const SimulationSettings& s, double dt) {
         [&] { record(stepFluid(world.gas, s.fluid, s.particles.burning.sootPerMass, dt, world.scratch), report); });
   timed(report, "particles", [&] { carryParticles(world, s, dt); });
   timed(report, "bodies", [&] {
+    swellBodies(world, dt);
+    warmBodies(world, dt);
     if (const auto* drag = std::get_if<Drag>(&s.rigid.push))
       pushBodies(world.bodies, world.gas.velocity, *drag, world.time, dt);
     else

@@ -18,6 +18,10 @@ struct BodyLook {
   std::string material;
   double temperature = 0;  ///< [K]
   bool moves = true;
+  std::optional<double> warmingTime;  ///< [s] as in BodySettings
+  bool deforms = false;               ///< its mesh is not the one that it was made with
+  bool swelling = false;              ///< gas carries its vertices now
+  int shapeFrame = 0;                 ///< frame in which its mesh last changed; 0: at rest
 };
 
 /// Sums over the whole run.
