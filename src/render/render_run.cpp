@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "base/check.h"
+#include "render/flow_arrows.h"
 #include "render/picture_file.h"
 #include "render/piece_paint.h"
 #include "render/render_frame.h"
@@ -64,8 +65,9 @@ RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const
     if (options.skipExisting && isDrawn(run, index, settings.writeExr)) {
       ++summary.skipped;
     } else {
-      Frame frame = readFrame(run.path(), index, false);
+      Frame frame = readFrame(run.path(), index, settings.flow.drawn);
       RenderSettings look = settings;
+      if (settings.flow.drawn) addFlow(frame.gas, settings.flow, frame.bodies, look.materials);
       paintPieces(frame.bodies, look.materials, assets.heat);
       const PictureTime time{options.startTime + (index - 1) / options.fps, 1 / options.fps, options.timeScale};
       addPictures(run, index, renderFrame(frame, look, assets, time, scratch), settings);

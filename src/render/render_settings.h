@@ -117,6 +117,15 @@ struct VolumeSettings {
   double anisotropy = 0;                ///< mean cosine of the scattering angle (path integrator)
 };
 
+/// The gas' velocity drawn as arrows in a box, which may be flat.
+struct FlowSettings {
+  bool drawn = false;
+  Vec3d lower, upper{1, 1, 1};  ///< [m] corners
+  double spacing = 0.1;         ///< [m] between arrows
+  double seconds = 0.05;        ///< [s] of the gas' way that an arrow is long
+  Vec3f colour{.03f, .1f, .35f};
+};
+
 /// Light from far away: a picture of all directions.
 struct EnvironmentSettings {
   std::optional<std::filesystem::path>
@@ -149,6 +158,7 @@ struct RenderSettings {
   std::vector<Light> lights;
   std::map<std::string, Material> materials;
   VolumeSettings volume;
+  FlowSettings flow;
 };
 
 }  // namespace brisance

@@ -207,6 +207,7 @@ struct SceneGeometry::Bodies {
 /// Returns the body's largest coordinate.
 float SceneGeometry::Bodies::add(const FrameBody& body, double openTime) {
   list.add(body);
+  if (body.mesh->triangles.empty()) return 0;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const bool blurred = openTime > 0 && body.moves;
   float largest;

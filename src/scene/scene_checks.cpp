@@ -169,6 +169,21 @@ void checkBodies(const Scene& scene, const Places& places) {
   }
 }
 
+void checkFlow(const Scene& scene, const Places& places) {
+  const FlowSettings& flow = scene.render.flow;
+  if (!flow.drawn) return;
+  constexpr double mostArrows = 1e5;
+  double arrows = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (flow.upper[axis] < flow.lower[axis])
+      places.refuse("render.flow.upper",
+                    fmt::format("must not lie below lower, {} [m], got {}", shown(flow.lower), shown(flow.upper)));
+    arrows *= 1 + (flow.upper[axis] - flow.lower[axis]) / flow.spacing;
+  }
+  if (arrows > mostArrows)
+    places.refuse("render.flow.spacing", fmt::format("must leave at most {:g} arrows, got {:.3g}", mostArrows, arrows));
+}
+
 void checkPicture(const Scene& scene, const Places& places) {
   const VolumeSettings& volume = scene.render.volume;
   if (volume.minDensity >= volume.maxDensity)
@@ -177,6 +192,7 @@ void checkPicture(const Scene& scene, const Places& places) {
   if (volume.filterSize != 0 && volume.filterSize % 2 == 0)
     places.refuse("render.volume.filter_size",
                   fmt::format("must be odd, or 0 for three deviations, got {}", volume.filterSize));
+  checkFlow(scene, places);
   for (std::size_t i = 0; i < scene.render.lights.size(); ++i) {
     const auto* sun = std::get_if<SunLight>(&scene.render.lights[i]);
     if (sun != nullptr && length(sun->direction) == 0)
