@@ -19,7 +19,7 @@ constexpr std::string_view patternNames[] = {"uniform", "blue_noise", "impact"};
 constexpr std::string_view triangulationNames[] = {"trisection", "delaunay"};
 constexpr std::string_view splitNames[] = {"list", "level"};
 constexpr std::string_view curvatureWeightNames[] = {"clipped", "raw"};
-constexpr std::string_view insideNames[] = {"all", "smallest"};
+constexpr std::string_view insideNames[] = {"all", "smallest", "largest"};
 constexpr std::string_view edgeWeightNames[] = {"unit", "length"};
 
 void describeFaces(KeyVisitor& v, Faces& faces) {
