@@ -5,7 +5,7 @@
 namespace brisance {
 
 namespace {
-constexpr char magic[16] = "brisance-ckpt-1";
+constexpr char magic[16] = "brisance-ckpt-2";
 
 class Writer {
  public:
@@ -104,6 +104,9 @@ void archive(Archive& a, State& world) {
   a.fixedArray(bodies.orientation);
   a.fixedArray(bodies.linearVelocity);
   a.fixedArray(bodies.angularVelocity);
+  a.fixedArray(bodies.holds);
+  a.array(bodies.passing);
+  a.array(bodies.pressing);
 }
 }  // namespace
 
@@ -123,6 +126,9 @@ void readCheckpoint(const std::string& bytes, const std::string& fileName, World
   reader.value(start);
   if (std::memcmp(start, magic, sizeof magic) != 0) reader.refuse("is of another version of Brisance");
   archive(reader, world);
+  for (const BodyPair& pair : world.bodies.passing)
+    if (pair.a >= world.bodies.size() || pair.b >= world.bodies.size())
+      reader.refuse("names bodies that are not there");
   if (!reader.atEnd()) reader.refuse("has bytes left over");
   for (std::size_t size : {world.particles.position.size(), world.particles.mass.size(), world.particles.kind.size()})
     if (size != world.particles.size()) reader.refuse("holds particles of different counts");

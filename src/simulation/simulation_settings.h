@@ -56,6 +56,7 @@ struct BodySettings {
   FractureSettings fracture;
   double releaseTime = 0;    ///< [s] until then it rests in place
   double temperature = 300;  ///< [K]
+  double bondStrength = 0;   ///< [Pa] at which its pieces come apart; 0: they are apart from the start
 };
 
 /// pass: gas goes through bodies that move, as in the thesis. block: they stop it, and carry it.
