@@ -29,7 +29,7 @@ foreach(source particles/particle_step fluid/advection fluid/diffusion fluid/don
   set_source_files_properties(${CMAKE_SOURCE_DIR}/src/${source}.cpp PROPERTIES
     COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
 endforeach()
-brisance_floor(rigid USES grid mesh)
+brisance_floor(rigid USES grid mesh LIBRARIES bullet_collision)
 brisance_floor(fracture USES grid mesh LIBRARIES Eigen3::Eigen Boost::headers TBB::tbb TBB::tbbmalloc)
 brisance_floor(frame USES grid mesh LIBRARIES ${OPENVDB_LIBRARY} PkgConfig::IMATH TBB::tbb nlohmann_json::nlohmann_json)
 brisance_floor(simulation USES fluid particles rigid fracture frame LIBRARIES nlohmann_json::nlohmann_json)

@@ -31,6 +31,7 @@ constexpr double particleMemory =
 constexpr double pixelMemory = 32;         // colour and weights in single precision, and the encoded picture
 constexpr double baseMemory = 45e6;        // the program and its libraries
 constexpr double pieceBytes = 20e3;        // a shard's mesh of some hundred triangles, on disk and in memory
+constexpr double hullBytes = 40e3;         // where bodies collide: a piece's convex parts, and where they are now
 constexpr double gasCellDisk = 24;         // three scalars and a vector, before compression
 constexpr double particleDisk = 33;        // position, velocity, mass, temperature, kind
 constexpr double posedPieceDisk = 100;     // pose and velocities, per frame
@@ -55,7 +56,9 @@ double gasCellMemory(const SimulationSettings& s) {
 }
 
 double simulatingMemory(const Scene& scene, const SceneEstimate& cost) {
-  return static_cast<double>(cost.cells) * gasCellMemory(scene.simulation) +
+  const bool collide = std::holds_alternative<Contacts>(scene.simulation.rigid.collisions);
+  return (collide ? static_cast<double>(cost.pieces) * hullBytes : 0) +
+         static_cast<double>(cost.cells) * gasCellMemory(scene.simulation) +
          static_cast<double>(cost.particles) * particleMemory;
 }
 

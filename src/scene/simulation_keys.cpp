@@ -11,6 +11,7 @@ constexpr const char* faceKeys[] = {"x_lower", "x_upper", "y_lower", "y_upper", 
 constexpr std::string_view advectionNames[] = {"donor_cell", "maccormack", "semi_lagrangian"};
 constexpr std::string_view pressureNames[] = {"auto", "fast_poisson", "multigrid", "conjugate_gradient"};
 constexpr std::string_view pushNames[] = {"drag", "pressure"};
+constexpr std::string_view collisionNames[] = {"none", "contacts"};
 constexpr std::string_view bodiesInGasNames[] = {"pass", "block"};
 constexpr std::string_view quadratureNames[] = {"area_quadrature", "vertex_sum"};
 constexpr std::string_view shapeNames[] = {"sphere", "box", "rectangle", "mesh", "pane"};
@@ -297,6 +298,12 @@ void describePush(KeyVisitor& v, Drag& push) {
 }
 void describePush(KeyVisitor&, Pressure&) {}
 
+void describeCollisions(KeyVisitor&, NoCollisions&) {}
+void describeCollisions(KeyVisitor& v, Contacts& contacts) {
+  visit(v, {"friction", "", between(0, 10), "Coulomb's coefficient, of all bodies"}, contacts.friction);
+  visit(v, {"restitution", "", between(0, 1), "speed of parting over speed of meeting"}, contacts.restitution);
+}
+
 void describeFracture(KeyVisitor& v, FractureSettings& fracture) {
   v.enter({"method", "", anyValue, "how pieces are chosen"}, true);
   visitAlternatives(v, fractureMethodNames, fracture.method,
@@ -357,6 +364,13 @@ void describeRigid(KeyVisitor& v, RigidSettings& rigid) {
   v.enter(push, true);
   visitAlternatives(v, pushNames, rigid.push, [](KeyVisitor& inner, auto& kind) { describePush(inner, kind); });
   v.leave();
+  Key collisions{"collisions", "", anyValue,
+                 "none: bodies pass through one another, as in the thesis; contacts: they stop one another"};
+  collisions.fallback = "none";
+  v.enter(collisions, true);
+  visitAlternatives(v, collisionNames, rigid.collisions,
+                    [](KeyVisitor& inner, auto& kind) { describeCollisions(inner, kind); });
+  v.leave();
 }
 
 void describeBody(KeyVisitor& v, BodyKeys& keys) {
@@ -380,6 +394,11 @@ void describeBody(KeyVisitor& v, BodyKeys& keys) {
          {},
          "none: it keeps its temperature"},
         keys.body.warmingTime);
+  visit(v,
+        {"bond_strength", "Pa", atLeast(0),
+         "tension, shear and bending between pieces at which they come apart; until then they move as one; 0: they are "
+         "apart from the start"},
+        keys.body.bondStrength);
   visitTable(v, "fracture", "how it breaks, before time starts", keys.body.fracture, describeFracture);
 }
 

@@ -127,6 +127,9 @@ void archive(Archive& a, State& world) {
   a.fixedArray(bodies.orientation);
   a.fixedArray(bodies.linearVelocity);
   a.fixedArray(bodies.angularVelocity);
+  a.fixedArray(bodies.holds);
+  a.array(bodies.passing);
+  a.array(bodies.pressing);
   for (auto& look : world.looks) {
     a.value(look.temperature);
     a.value(look.swelling);
@@ -152,6 +155,9 @@ void readCheckpoint(const std::string& bytes, const std::string& fileName, World
   reader.value(start);
   if (std::memcmp(start, magic, sizeof magic) != 0) reader.refuse("is of another version of Brisance");
   archive(reader, world);
+  for (const BodyPair& pair : world.bodies.passing)
+    if (pair.a >= world.bodies.size() || pair.b >= world.bodies.size())
+      reader.refuse("names bodies that are not there");
   if (!reader.atEnd()) reader.refuse("has bytes left over");
   for (std::size_t size : {world.particles.position.size(), world.particles.mass.size(), world.particles.kind.size()})
     if (size != world.particles.size()) reader.refuse("holds particles of different counts");

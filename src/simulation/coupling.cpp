@@ -1,10 +1,14 @@
 #include "simulation/coupling.h"
 
+#include <algorithm>
+#include <set>
+
 #include "base/parallel.h"
 #include "base/vector_path.h"
 #include "grid/interpolate.h"
 #include "particles/burning.h"
 #include "particles/particle_step.h"
+#include "rigid/contacts.h"
 #include "rigid/swelling.h"
 
 namespace brisance {
@@ -47,20 +51,37 @@ void carryParticles(WorldState& world, const SimulationSettings& settings, doubl
   ignite(world.particles, settings.particles.burning);
 }
 
+namespace {
+/// Bodies that have just become rigid touch their neighbours as pieces do at the start, and pass through them.
+void collideAsTheyAre(WorldState& world, const std::vector<bool>& stiffened) {
+  RigidBodies& bodies = world.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (stiffened[b]) world.shapes[b] = movingShape(*bodies.mesh[b]);
+  std::set<BodyPair> passing(bodies.passing.begin(), bodies.passing.end());
+  for (const BodyPair& pair : passingPairs(bodies, world.shapes))
+    if (stiffened[pair.a] && stiffened[pair.b]) passing.insert(pair);
+  bodies.passing.assign(passing.begin(), passing.end());
+}
+}  // namespace
+
 void swellBodies(WorldState& world, double dt) {
   RigidBodies& bodies = world.bodies;
+  std::vector<bool> stiffened(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     BodyLook& look = world.looks[b];
     if (!look.swelling) continue;
     look.shapeFrame = world.frame + 1;
     look.swelling = !bodies.isFree(b, world.time);
-    if (!look.swelling) {
-      stiffen(bodies, b, world.gas.velocity);
-      continue;
-    }
     const Pose pose{bodies.position[b], bodies.orientation[b]};
-    bodies.mesh[b] = std::make_shared<const TriangleMesh>(carriedByGas(*bodies.mesh[b], pose, world.gas.velocity, dt));
+    stiffened[b] = !look.swelling;
+    if (stiffened[b])
+      stiffen(bodies, b, world.gas.velocity);
+    else
+      bodies.mesh[b] =
+          std::make_shared<const TriangleMesh>(carriedByGas(*bodies.mesh[b], pose, world.gas.velocity, dt));
   }
+  const bool any = std::find(stiffened.begin(), stiffened.end(), true) != stiffened.end();
+  if (any && !world.shapes.empty()) collideAsTheyAre(world, stiffened);
 }
 
 void warmBodies(WorldState& world, double dt) {

@@ -44,8 +44,8 @@ double massOf(const Piece& piece, const MassRule& rule, double wholeVolume) {
   return std::visit(Rule{piece, wholeVolume}, rule);
 }
 
-void addPiece(const BodySettings& settings, const Piece& piece, const std::string& name, double mass,
-              WorldState& world) {
+void addPiece(const BodySettings& settings, std::uint32_t origin, const Piece& piece, const std::string& name,
+              double mass, WorldState& world) {
   RigidBodies& bodies = world.bodies;
   const bool moves = settings.moves;
   if (moves && !(mass > 0))
@@ -61,8 +61,21 @@ void addPiece(const BodySettings& settings, const Piece& piece, const std::strin
   bodies.mesh.push_back(std::make_shared<const TriangleMesh>(piece.mesh));
   bodies.area.push_back(piece.properties.area);
   bodies.releaseTime.push_back(settings.releaseTime);
+  bodies.origin.push_back(origin);
   world.looks.push_back(
       {settings.material, settings.temperature, moves, settings.warmingTime, settings.swells, settings.swells, 0});
+}
+/// Joins the pieces that were added last.
+void addBonds(const BodySettings& settings, const FracturedBody& broken, RigidBodies& bodies) {
+  if (settings.bondStrength == 0 || !settings.moves) return;
+  const auto first = static_cast<std::uint32_t>(bodies.size() - broken.pieces.size());
+  for (const Bond& bond : broken.bonds) {
+    if (!(bond.area > 0)) continue;
+    const std::uint32_t a = first + static_cast<std::uint32_t>(bond.a), b = first + static_cast<std::uint32_t>(bond.b);
+    bodies.bonds.push_back(
+        {a, b, bond.place - broken.pieces[bond.a].place, bond.normal, bond.area, settings.bondStrength});
+    bodies.holds.push_back(1);
+  }
 }
 }  // namespace
 
@@ -78,17 +91,19 @@ std::string pieceName(const std::string& body, std::size_t piece, std::size_t pi
 
 std::vector<MovingSolid> makeBodies(const SimulationSettings& settings, WorldState& world) {
   std::vector<MovingSolid> solids;
-  for (const BodySettings& body : settings.bodies) {
+  for (std::uint32_t number = 0; number < settings.bodies.size(); ++number) {
+    const BodySettings& body = settings.bodies[number];
     const FracturedBody broken = breakBody(body, settings.seed);
     double volume = 0;
     for (const Piece& piece : broken.pieces) volume += piece.properties.volume;
     for (std::size_t n = 0; n < broken.pieces.size(); ++n) {
       const std::string name = pieceName(body.name, n, broken.pieces.size());
-      addPiece(body, broken.pieces[n], name, massOf(broken.pieces[n], body.mass, volume), world);
+      addPiece(body, number, broken.pieces[n], name, massOf(broken.pieces[n], body.mass, volume), world);
       if (body.blocksGas)
         solids.push_back(
             {world.bodies.mesh.back(), {world.bodies.position.back(), world.bodies.orientation.back()}, {}, {}});
     }
+    addBonds(body, broken, world.bodies);
   }
   return solids;
 }

@@ -5,6 +5,8 @@
 
 #include "fluid/solid_fractions.h"
 #include "particles/burning.h"
+#include "rigid/collide.h"
+#include "rigid/contacts.h"
 #include "rigid/gas_push.h"
 #include "rigid/rigid_step.h"
 #include "simulation/capture.h"
@@ -53,7 +55,10 @@ void substep(WorldState& world, const SimulationSettings& s, double dt) {
       pushBodies(world.bodies, world.gas.velocity, *drag, world.time, dt);
     else
       takePush(world);
-    stepBodies(world.bodies, s.rigid, world.time, dt);
+    if (std::holds_alternative<Contacts>(s.rigid.collisions) || !world.bodies.bonds.empty())
+      stepColliding(world.bodies, world.shapes, s.rigid, world.time, dt);
+    else
+      stepBodies(world.bodies, s.rigid, world.time, dt);
   });
   if (block) timed(report, "solids", [&] { blockGas(world, s, false); });
   world.time += dt;
@@ -98,6 +103,11 @@ void addToTotals(const StepReport& report, RunTotals& totals) {
 
 World::World(SimulationSettings settings) : settings_(std::move(settings)), state_(std::make_unique<WorldState>()) {
   const std::vector<MovingSolid> solids = makeBodies(settings_, *state_);
+  const bool collide = std::holds_alternative<Contacts>(settings_.rigid.collisions);
+  if (collide || !state_->bodies.bonds.empty()) state_->shapes = collisionShapes(state_->bodies);
+  if (collide) {
+    state_->bodies.passing = passingPairs(state_->bodies, state_->shapes);
+  }
   SolidStamper stamper(settings_.fluid, solids);
   state_->gas = makeFluid(settings_.fluid, stamper.fixed(), settings_.seed);
   if (settings_.bodiesInGas == BodiesInGas::block) {
@@ -134,6 +144,8 @@ const RunTotals& World::totals() const { return state_->totals; }
 std::string World::checkpoint() const { return writeCheckpoint(*state_); }
 void World::restore(const std::string& bytes, const std::string& fileName) {
   readCheckpoint(bytes, fileName, *state_);
+  for (std::size_t b = 0; b < state_->shapes.size(); ++b)
+    if (state_->looks[b].shapeFrame > 0) state_->shapes[b] = movingShape(*state_->bodies.mesh[b]);
   if (state_->stamper) blockGas(*state_, settings_, true);
 }
 

@@ -8,6 +8,7 @@
 #include "particles/deposit.h"
 #include "particles/particle_order.h"
 #include "particles/particle_set.h"
+#include "rigid/collision_shapes.h"
 #include "rigid/rigid_bodies.h"
 #include "simulation/world.h"
 
@@ -40,6 +41,7 @@ struct WorldState {
   ParticleSet particles;
   std::vector<std::uint64_t> emitted;  ///< per charge
   RigidBodies bodies;
+  std::vector<CollisionShape> shapes;   ///< of bodies, where they collide
   std::optional<SolidStamper> stamper;  ///< where moving bodies block the gas
   std::vector<BodyLook> looks;
   RunTotals totals;

@@ -29,6 +29,17 @@ SimulationSettings swellingScene() {
   return s;
 }
 
+/// The same above a floor that the pieces land on.
+SimulationSettings landingBalloon() {
+  SimulationSettings s = swellingScene();
+  s.rigid.collisions = Contacts{};
+  s.rigid.gravity = {0, -40, 0};
+  BodySettings floor = wallPart("floor", {-3, .1, -3}, {4, .2, 4});
+  floor.blocksGas = false;
+  s.bodies.push_back(floor);
+  return s;
+}
+
 World worldAt(const SimulationSettings& settings, int frame) {
   World world(settings);
   while (world.frameIndex() < frame) world.advance();
@@ -122,7 +133,8 @@ TEST(World, GasStaysBehindAPaneThatBlocksItUntilThePaneGoes) {
 }
 
 TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
-  for (const SimulationSettings& settings : {smallScene(), blockingScene(), swellingScene()}) {
+  for (const SimulationSettings& settings :
+       {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon()}) {
     const Frame undisturbed = worldAt(settings, 8).capture();
     for (const int stop : {2, 4, 7}) {
       const std::string bytes = worldAt(settings, stop).checkpoint();
@@ -136,7 +148,8 @@ TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
 }
 
 TEST(World, AnyThreadsAndVectorWidthGiveTheSameBits) {
-  for (const SimulationSettings& settings : {smallScene(), blockingScene(), swellingScene()}) {
+  for (const SimulationSettings& settings :
+       {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon()}) {
     std::vector<Frame> frames;
     for (const int threads : {1, 2, 3})
       for (const VectorPath path : {VectorPath::plain, VectorPath::avx2, VectorPath::avx512}) {
@@ -204,6 +217,21 @@ TEST(World, AnotherSeedGivesAnotherExplosion) {
   const Frame first = worldAt(settings, 3).capture();
   settings.seed = 2;
   EXPECT_FALSE(worldAt(settings, 3).capture().particles == first.particles);
+}
+
+TEST(World, PiecesThatCollideComeToLieOnTheFloor) {
+  SimulationSettings settings = landingScene();
+  settings.frames = 40;
+  const Frame landing = worldAt(settings, 8).capture(), frame = worldAt(settings, 40).capture();
+  double fastest = 0, deepest = 0;
+  for (const FrameBody& body : landing.bodies) fastest = std::max(fastest, length(body.linearVelocity));
+  EXPECT_GT(fastest, .1) << "a checkpoint of frame 7 is taken in the middle of contact";
+  for (const FrameBody& body : frame.bodies) {
+    if (!body.moves) continue;
+    EXPECT_LT(length(body.linearVelocity), 1e-3) << body.name;
+    for (const Vec3d& v : body.mesh->vertices) deepest = std::min(deepest, (body.pose * v).y);
+  }
+  EXPECT_GT(deepest, -5e-5);
 }
 
 TEST(World, PiecesRestUntilTheyAreReleased) {
