@@ -91,12 +91,15 @@ std::vector<Vec3d> flight(const std::vector<bool>& isPushed, const Vec3d& gravit
 }
 
 /// What lies still on something loses the rest of its motion to it.
-void settle(Movers& movers, const std::vector<bool>& isPushed, const std::vector<CollisionShape>& shapes, double dt) {
+void settle(Movers& movers, const std::vector<bool>& isPushed, const RigidBodies& bodies,
+            const std::vector<CollisionShape>& shapes, double dt) {
   constexpr double slow = 0.05;  // [m/s] of the fastest point
   constexpr double rate = 20;    // [1/s]
   std::vector<double> radius(movers.of.size(), 0);
-  for (std::size_t b = 0; b < shapes.size(); ++b)
-    radius[movers.number[b]] = std::max(radius[movers.number[b]], shapes[b].radius);
+  for (std::size_t b = 0; b < shapes.size(); ++b) {
+    const double reach = length(bodies.position[b] - movers.of[movers.number[b]].place) + shapes[b].radius;
+    radius[movers.number[b]] = std::max(radius[movers.number[b]], reach);
+  }
   for (std::size_t m = 0; m < movers.of.size(); ++m) {
     Mover& mover = movers.of[m];
     if (!isPushed[m] || length(mover.velocity) + length(mover.spin) * radius[m] > slow) continue;
@@ -245,7 +248,7 @@ void stepPart(RigidBodies& bodies, const std::vector<CollisionShape>& shapes, co
   rememberForces(solver, touching.contacts, dt, bodies);
   constexpr double leastBounce = 0.02;  // [m/s]
   solver.bounce(leastBounce + 2 * length(settings.gravity) * dt);
-  if (!(settings.gravity == Vec3d{})) settle(movers, isPushed, shapes, dt);
+  if (!(settings.gravity == Vec3d{})) settle(movers, isPushed, bodies, shapes, dt);
   giveVelocities(movers, isFree, bodies);
   const bool anyHolds = std::any_of(bodies.holds.begin(), bodies.holds.end(), [](std::uint8_t h) { return h != 0; });
   if (anyHolds) breakBonds(isFree, withoutBonds(bodies, touching, solver, places, before), dt, bodies);

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "mesh/convex_hull.h"
 #include "rigid/colliding_bodies.h"
 
 namespace brisance {
@@ -181,6 +182,44 @@ TEST(Collide, NeighbouringPiecesDoNotExplodeApart) {
   for (int n = 0; n < 4; ++n) bench.bodies.linearVelocity[n] = {1.5 - n, 0, 0};
   bench.run(.2);
   for (int n = 1; n < 4; ++n) EXPECT_GT(bench.bodies.position[n].x - bench.bodies.position[n - 1].x, .0999);
+}
+
+/// A splinter: the hull of random points in a flat box.
+TriangleMesh splinter(const Random& random, std::uint64_t number) {
+  std::vector<Vec3d> points;
+  for (std::uint64_t n = 0; n < 12; ++n) {
+    const auto at = [&](std::uint64_t k) { return random.uniform(number * 64 + n * 3 + k) - .5; };
+    points.push_back({.2 * at(0), .12 * at(1), (number % 3 == 0 ? .005 : .06) * at(2)});
+  }
+  TriangleMesh mesh = convexHull(points);
+  recenter(mesh, solidProperties(mesh).centroid);
+  return mesh;
+}
+
+TEST(Collide, AHeapOfSplintersComesToRestWithoutSinkingIntoOneAnother) {
+  const Random random(11, Stream::test);
+  RigidBodies made;
+  addFloor(made);
+  for (const double x : {-.35, .35}) addBox(made, {.1, 1, 1}, {{x, .5, 0}, {}}, 0);  // a trough
+  for (const double z : {-.35, .35}) addBox(made, {1, 1, .1}, {{0, .5, z}, {}}, 0);
+  constexpr std::uint32_t splinters = 40;
+  for (std::uint32_t n = 0; n < splinters; ++n)
+    addBody(
+        made, splinter(random, n),
+        {{.1 * (n % 3) - .1, .1 + .06 * n, .1 * (n / 3 % 3) - .1}, axisAngle(normalized(Vec3d(1, n % 5, n % 7)), n)},
+        2500);
+  Bench bench(made);
+  EXPECT_TRUE(bench.bodies.passing.empty());
+  bench.run(3.5);
+  double fastest = 0, deepest = 0;
+  for (const Vec3d& v : bench.bodies.linearVelocity) fastest = std::max(fastest, length(v));
+  EXPECT_LT(fastest, 1e-3);
+  const std::vector<bool> all(made.size(), true);
+  const std::vector<double> none(made.size(), 0);
+  const std::vector<BodyPair> pairs = nearPairs(bench.bodies, bench.shapes, none, all);
+  for (const auto& contacts : contactsOf(bench.bodies, bench.shapes, pairs, std::vector<double>(pairs.size(), 0)))
+    for (const ContactPoint& contact : contacts) deepest = std::max(deepest, -contact.gap);
+  EXPECT_LT(deepest, .01 * .1);
 }
 
 TEST(Collide, WhatIsHeldStandsLikeSceneryUntilItIsReleased) {

@@ -221,8 +221,8 @@ TEST(World, AnotherSeedGivesAnotherExplosion) {
 
 TEST(World, PiecesThatCollideComeToLieOnTheFloor) {
   SimulationSettings settings = landingScene();
-  settings.frames = 40;
-  const Frame landing = worldAt(settings, 8).capture(), frame = worldAt(settings, 40).capture();
+  settings.frames = 60;
+  const Frame landing = worldAt(settings, 8).capture(), frame = worldAt(settings, 60).capture();
   double fastest = 0, deepest = 0;
   for (const FrameBody& body : landing.bodies) fastest = std::max(fastest, length(body.linearVelocity));
   EXPECT_GT(fastest, .1) << "a checkpoint of frame 7 is taken in the middle of contact";
