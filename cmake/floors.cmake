@@ -31,7 +31,7 @@ foreach(source particles/particle_step fluid/advection fluid/diffusion fluid/don
 endforeach()
 brisance_floor(rigid USES grid mesh LIBRARIES bullet_collision)
 brisance_floor(fracture USES grid mesh LIBRARIES Eigen3::Eigen Boost::headers TBB::tbb TBB::tbbmalloc)
-brisance_floor(frame USES grid mesh LIBRARIES ${OPENVDB_LIBRARY} PkgConfig::IMATH TBB::tbb nlohmann_json::nlohmann_json)
+brisance_floor(frame USES grid mesh LIBRARIES ${OPENVDB_LIBRARY} PkgConfig::BLOSC PkgConfig::IMATH TBB::tbb nlohmann_json::nlohmann_json)
 brisance_floor(simulation USES fluid particles rigid fracture frame LIBRARIES nlohmann_json::nlohmann_json)
 brisance_floor(render USES frame LIBRARIES embree PNG::PNG JPEG::JPEG PkgConfig::OPENEXR TBB::tbb)
 brisance_floor(scene USES simulation render LIBRARIES PkgConfig::TOMLPP nlohmann_json::nlohmann_json)

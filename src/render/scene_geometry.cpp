@@ -25,19 +25,6 @@ namespace {
 constexpr float relativeResolution = 2e-6f;
 constexpr float smallestResolution = 1e-7f;  // [m]
 
-/// Unit normals of the vertices, weighted by the area of the faces around them (Algorithm 8 in one pass over the
-/// faces).
-std::vector<Vec3d> vertexNormals(const TriangleMesh& mesh) {
-  std::vector<Vec3d> normals(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3d& a = mesh.vertices[t[0]];
-    const Vec3d twiceArea = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    for (const std::uint32_t vertex : t) normals[vertex] += twiceArea;
-  }
-  for (Vec3d& normal : normals) normal = normalized(normal);
-  return normals;
-}
-
 /// What a hit looks up about a body.
 struct DrawnBody {
   std::shared_ptr<const TriangleMesh> mesh;

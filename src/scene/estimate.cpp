@@ -24,7 +24,7 @@ constexpr double multigridMemory = 13 * field;  // six vectors and seven entries
 constexpr double gradientMemory = 8 * field;    // four vectors in double precision
 constexpr double movingMemory = 20 * field;     // where moving bodies block gas: what faces and cells are, twice
 constexpr double depositMemory = field + 1;     // among solids: what is inside, and the share of a kernel in gas
-constexpr double writingMemory = 12 * field;    // the frame's velocity: bricks, leaves, packed, joined
+constexpr double writingMemory = 9 * field;     // the frame's packed velocity, and the checkpoint beside it
 constexpr double volumeCellMemory = 32;         // density and colour, and their copy while blurring
 constexpr double particleMemory =
     300;  // fields 83 and as much again to sort or to save, deposits 70, the frame and its file 66

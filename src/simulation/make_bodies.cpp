@@ -27,6 +27,8 @@ FracturedBody breakShape(const MeshShape& shape, const FractureSettings& fractur
     mesh = std::move(repaired.mesh);
   }
   for (Vec3d& v : mesh.vertices) v *= shape.scale;
+  const bool breaks = fracture.pieces > 1;  // cuts that have not opened shall not be seen in the shading
+  if (breaks && mesh.normals.empty()) mesh.normals = vertexNormals(mesh);
   return fractureMesh(mesh, fracture, shape.shellThickness);
 }
 FracturedBody breakShape(const PaneSettings& pane, const FractureSettings& fracture, std::uint64_t seed) {
