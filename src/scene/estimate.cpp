@@ -27,7 +27,7 @@ constexpr double depositMemory = field + 1;     // among solids: what is inside,
 constexpr double writingMemory = 9 * field;     // the frame's packed velocity, and the checkpoint beside it
 constexpr double volumeCellMemory = 32;         // density and colour, and their copy while blurring
 constexpr double particleMemory =
-    300;  // fields 83 and as much again to sort or to save, deposits 70, the frame and its file 66
+    445;  // fields 83, to sort 83 and to save 83, deposits 70, the frame and its file 66, and what these leave free
 constexpr double pixelMemory = 32;         // colour and weights in single precision, and the encoded picture
 constexpr double baseMemory = 45e6;        // the program and its libraries
 constexpr double pieceBytes = 20e3;        // a shard's mesh of some hundred triangles, on disk and in memory
