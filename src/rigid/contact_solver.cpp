@@ -31,6 +31,7 @@ ContactSolver::ContactSolver(std::vector<Mover>& movers, std::span<const std::ui
     row.tangents[0] = normalized(cross(other, row.normal));
     row.tangents[1] = cross(row.normal, row.tangents[0]);
     row.gap = contact.gap - skin[n];
+    row.slack = 2 * skin[n];
     arms(row);
     row.meeting = speed(row, row.normal);
     rows_.push_back(row);
@@ -87,7 +88,8 @@ void ContactSolver::sweep(double opening) {
     double largest = 0;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       Row& row = rows_[n % 2 == 0 ? k : rows_.size() - 1 - k];
-      const double least = row.gap > 0 ? -row.gap / dt_ : std::min(-opening * row.gap / dt_, openingSpeed);
+      const double overlap = std::max(0.0, -row.gap - row.slack);
+      const double least = row.gap > 0 ? -row.gap / dt_ : std::min(opening * overlap / dt_, openingSpeed);
       largest = std::max(largest, push(row, least));
       rub(row);
     }

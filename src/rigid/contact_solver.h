@@ -23,7 +23,8 @@ inline Vec3d velocityAt(const Mover& mover, const Vec3d& arm) { return mover.vel
 
 class ContactSolver {
  public:
-  /// `number` is that of each body's mover; `skin` [m] per contact: the gap at which bodies rest.
+  /// `number` is that of each body's mover; `skin` [m] per contact: the gap at which bodies come to rest. Overlaps up
+  /// to as much are left alone: what fits between two others exactly is not wedged there.
   ContactSolver(std::vector<Mover>& movers, std::span<const std::uint32_t> number,
                 std::span<const ContactPoint> contacts, std::span<const double> skin, const Contacts& settings,
                 double dt);
@@ -48,6 +49,7 @@ class ContactSolver {
     Vec3d armA, armB;
     double share = 0, tangentShare[2]{};  ///< impulse per speed along the axis [kg]
     double gap = 0;                       ///< beyond the skin [m]
+    double slack = 0;                     ///< gaps down to minus this are left as they are [m]
     double pushes = 0, rubs[2]{};         ///< impulses [kg m/s]
     double meeting = 0;                   ///< speed along the normal before anything was solved [m/s]
   };
