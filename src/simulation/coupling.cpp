@@ -144,6 +144,7 @@ void blockGas(WorldState& world, const SimulationSettings& settings, bool anew) 
     world.stamper->stampMoving(solids, world.gas.solid);
   else
     moveSolids(world.gas, solids, settings.fluid, *world.stamper);
+  world.limits.reset();
 }
 
 double expectedSource(const WorldState& world, const SimulationSettings& settings) {

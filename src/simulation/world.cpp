@@ -39,14 +39,25 @@ void record(const FluidReport& step, StepReport& report) {
   report.heat += step.heat;
 }
 
+const StepLimits& limitsOfGas(WorldState& world) {
+  if (!world.limits) world.limits = limitsOf(world.gas);
+  return *world.limits;
+}
+
+void stepGas(WorldState& world, const SimulationSettings& s, double dt) {
+  const FluidReport step =
+      stepFluid(world.gas, s.fluid, s.particles.burning.sootPerMass, dt, world.scratch, limitsOfGas(world));
+  world.limits = step.next;
+  record(step, world.report);
+}
+
 /// burn; stepFluid; stepParticles; pushBodies; stepBodies; blockGas.
 void substep(WorldState& world, const SimulationSettings& s, double dt) {
   StepReport& report = world.report;
   const bool block = s.bodiesInGas == BodiesInGas::block;
   timed(report, "burn", [&] { burnIntoGas(world, s, dt); });
   if (block) releaseBodies(world, s);
-  timed(report, "gas",
-        [&] { record(stepFluid(world.gas, s.fluid, s.particles.burning.sootPerMass, dt, world.scratch), report); });
+  timed(report, "gas", [&] { stepGas(world, s, dt); });
   timed(report, "particles", [&] { carryParticles(world, s, dt); });
   timed(report, "bodies", [&] {
     swellBodies(world, dt);
@@ -128,7 +139,8 @@ void World::advance() {
   timed(world.report, "particles", [&] { sortByRow(world.particles, world.gas.burnRate, world.order); });
   const double sliver = 1e-9 * settings_.frameTime;
   while (world.time < end - sliver) {
-    const double longest = longestStep(world.gas, settings_.fluid, expectedSource(world, settings_));
+    const double longest =
+        longestStep(world.gas, settings_.fluid, expectedSource(world, settings_), limitsOfGas(world));
     const double left = end - world.time;
     substep(world, settings_, left / std::ceil(left / std::min(longest, left)));
     refuseBrokenState(world, settings_);
@@ -146,6 +158,7 @@ void World::restore(const std::string& bytes, const std::string& fileName) {
   readCheckpoint(bytes, fileName, *state_);
   for (std::size_t b = 0; b < state_->shapes.size(); ++b)
     if (state_->looks[b].shapeFrame > 0) state_->shapes[b] = movingShape(*state_->bodies.mesh[b]);
+  state_->limits.reset();
   if (state_->stamper) blockGas(*state_, settings_, true);
 }
 

@@ -38,6 +38,7 @@ struct WorldState {
   double largestSource = 0;   ///< phi [1/s] of the last sub-step
   std::uint64_t burning = 0;  ///< particles in that sub-step
   FluidState gas;
+  std::optional<StepLimits> limits;  ///< of the gas as it is, where the last sub-step has found them
   ParticleSet particles;
   std::vector<std::uint64_t> emitted;  ///< per charge
   RigidBodies bodies;
