@@ -25,7 +25,7 @@ brisance_floor(fluid USES grid mesh)
 brisance_floor(particles USES grid mesh)
 # Nobody asks for errno or floating-point traps there: without them square roots and choices become vectors. No bit changes.
 foreach(source particles/particle_step fluid/advection fluid/diffusion fluid/donor_sweep fluid/ghost_rows fluid/pressure
-    fluid/semi_lagrangian fluid/temperature fluid/vorticity)
+    fluid/semi_lagrangian fluid/temperature fluid/vorticity render/gas_bricks render/gas_medium render/gas_tracking)
   set_source_files_properties(${CMAKE_SOURCE_DIR}/src/${source}.cpp PROPERTIES
     COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
 endforeach()
