@@ -115,13 +115,19 @@ double marchError(const std::vector<GasPath>& paths, const std::vector<GasPassag
 void march(benchmark::State& state, const MarchAll& run) {
   static const std::vector<GasPath> paths = pathsThroughExplosion();
   std::vector<GasPassage> passages(paths.size());
+  run(paths, passages);
   for (auto _ : state) run(paths, passages);
   state.counters["threads"] = threadCount();
   state.counters["error"] = marchError(paths, passages);
 }
 
-void marchGas(const std::vector<GasPath>& paths, std::vector<GasPassage>& passages) {
+const GasMedium& explosionGas() {
   static const GasMedium gas(explosion(), explosionSettings());
+  return gas;
+}
+
+void marchGas(const std::vector<GasPath>& paths, std::vector<GasPassage>& passages) {
+  const GasMedium& gas = explosionGas();
   parallelFor(0, std::ssize(paths), 1024, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t n = first; n < last; ++n) passages[n] = gas.march(paths[n]);
   });

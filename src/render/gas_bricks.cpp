@@ -3,27 +3,6 @@
 #include <algorithm>
 
 namespace brisance {
-namespace {
-
-constexpr float largestCode = 65535;
-
-}  // namespace
-
-void GasBrick::encode(const GasSample* samples) {
-  GasSample::Vector largest{};
-  for (int n = 0; n < count; ++n) largest = samples[n].values > largest ? samples[n].values : largest;
-  const GasSample::Vector none{};
-  scale = largest / largestCode;
-  const GasSample::Vector perScale = largest > none ? largestCode / largest : none;
-  for (int n = 0; n < count; ++n)
-    for (int c = 0; c < 4; ++c) codes[n][c] = static_cast<std::uint16_t>(samples[n].values[c] * perScale[c] + 0.5f);
-}
-
-void GasBrick::decode(GasSample* samples) const {
-  for (int n = 0; n < count; ++n)
-    for (int c = 0; c < 4; ++c) samples[n].values[c] = static_cast<float>(codes[n][c]) * scale[c];
-}
-
 GasSample GasBrick::at(const Vec3f& cellsIn) const {
   const auto cell = [](float place) { return std::clamp(static_cast<int>(place), 0, cells - 1); };
   const auto share = [](float place, int first) { return std::clamp(place - static_cast<float>(first), 0.0f, 1.0f); };

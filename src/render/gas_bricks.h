@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -26,13 +25,26 @@ struct GasBrick {
   static constexpr int cells = 8, edge = cells + 1, count = edge * edge * edge;
 
   GasSample::Vector scale;
-  std::int32_t block;  ///< its number among all blocks
-  std::uint16_t codes[count][4];
+  std::int32_t block;              ///< its number among all blocks
+  std::uint16_t codes[4 * count];  ///< the four of a sample after one another
 
   static constexpr int index(int x, int y, int z) { return x + edge * (y + edge * z); }
   /// Stores samples, to 1/131070 of the largest of the brick.
-  void encode(const GasSample* samples);
-  void decode(GasSample* samples) const;
+  void encode(const GasSample* samples) {
+    constexpr float largestCode = 65535;
+    GasSample::Vector largest{}, none{};
+    for (int n = 0; n < count; ++n) largest = samples[n].values > largest ? samples[n].values : largest;
+    scale = largest / largestCode;
+    const GasSample::Vector perScale = largest > none ? largestCode / largest : none;
+    for (int n = 0; n < count; ++n)
+      for (int c = 0; c < 4; ++c)
+        codes[4 * n + c] =
+            static_cast<std::uint16_t>(static_cast<std::int32_t>(samples[n].values[c] * perScale[c] + 0.5f));
+  }
+  void decode(GasSample* samples) const {
+    for (int n = 0; n < count; ++n)
+      for (int c = 0; c < 4; ++c) samples[n].values[c] = static_cast<float>(codes[4 * n + c]) * scale[c];
+  }
 
   /// Between the eight samples from number `first` on; shares 0 .. 1 along each axis. Two neighbours in x are read at
   /// once.
@@ -54,14 +66,10 @@ struct GasBrick {
 
  private:
   using Pair [[gnu::vector_size(32)]] = float;
-  using PairCodes [[gnu::vector_size(16)]] = std::uint16_t;
-  using PairNumbers [[gnu::vector_size(32)]] = std::int32_t;
 
   /// By reference, since without wide vectors no function may return one.
   [[gnu::always_inline]] void read(int first, Pair& pair) const {
-    PairCodes stored;
-    std::memcpy(&stored, codes[first], sizeof(stored));
-    pair = __builtin_convertvector(__builtin_convertvector(stored, PairNumbers), Pair);
+    for (int n = 0; n < 8; ++n) pair[n] = codes[4 * first + n];
   }
 };
 

@@ -10,8 +10,6 @@
 namespace brisance {
 namespace {
 
-/// The share of the density range over which min_d fades in.
-constexpr float fadeInShare = 0.01f;
 /// Samples one and a half deviations of the blur apart: the sum over samples of a Gaussian is then its integral to
 /// 2 exp(-2 pi^2 / 1.5^2), 0.03 % (Poisson summation), and a pixel's ways, whose phases differ, share even that out.
 constexpr double stepPerBlur = 1.5;
@@ -62,17 +60,9 @@ GasOptics::GasOptics(const VolumeSettings& settings)
     : opacity_(static_cast<float>(settings.opacity)),
       minDensity_(static_cast<float>(settings.minDensity)),
       densityRange_(static_cast<float>(settings.maxDensity - settings.minDensity)),
-      fullDensity_(static_cast<float>(settings.fullDensity)),
+      perFullDensity_(static_cast<float>(1 / settings.fullDensity)),
       emission_(static_cast<float>(settings.emission)),
       smokeColour_(settings.smokeColour) {}
-
-float GasOptics::extinction(float density) const {
-  if (density <= 0) return 0;
-  const float share = std::min(1.0f, density / fullDensity_);
-  const float t = std::min(1.0f, share / fadeInShare);
-  const float fade = t * t * (3 - 2 * t);
-  return opacity_ * (minDensity_ * fade + densityRange_ * share);
-}
 
 GasMedium::GasMedium(const ParticleVolume& volume, const VolumeSettings& settings, BrickMemory memory)
     : size_(volume.density.size),
@@ -209,17 +199,42 @@ void GasMedium::bakeScattered() {
   });
 }
 
+/// The light that a brick's samples scatter goes linearly between the centres of blocks: those of its own and of the
+/// blocks around it, of which the outermost hold beyond.
 void GasMedium::bakeBrick(GasBrick& brick) const {
-  const Vec3f lower(blockAt(brick.block) * blockCells);
+  constexpr float perBlock = 1.0f / blockCells, centre = 0.5f * (blockCells - 1);
+  const Vec3i block = blockAt(brick.block);
+  Vec3f around[3][3][3];
+  const auto clamped = [&](int axis, int offset) {
+    return std::clamp(block[axis] + offset - 1, 0, blockScattered_.size[axis] - 1);
+  };
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x) around[z][y][x] = blockScattered_(clamped(0, x), clamped(1, y), clamped(2, z));
   GasSample samples[GasBrick::count];
   brick.decode(samples);
   GasSample* sample = samples;
+  const auto mixed = [](const Vec3f* three, float place) {
+    const int first = place < 1 ? 0 : 1;
+    return three[first] + (three[first + 1] - three[first]) * (place - static_cast<float>(first));
+  };
+  const auto placeOf = [](int cell) { return 1 + (static_cast<float>(cell) - centre) * perBlock; };
   for (int z = 0; z < GasBrick::edge; ++z)
-    for (int y = 0; y < GasBrick::edge; ++y)
+    for (int y = 0; y < GasBrick::edge; ++y) {
+      Vec3f line[3];
+      for (int x = 0; x < 3; ++x) {
+        Vec3f layers[3];
+        for (int layer = 0; layer < 3; ++layer) {
+          const Vec3f column[3] = {around[layer][0][x], around[layer][1][x], around[layer][2][x]};
+          layers[layer] = mixed(column, placeOf(y));
+        }
+        line[x] = mixed(layers, placeOf(z));
+      }
       for (int x = 0; x < GasBrick::edge; ++x, ++sample) {
-        const Vec3f light = sampleBlocks(blockScattered_, lower + Vec3f(Vec3i(x, y, z))) * sample->density();
+        const Vec3f light = mixed(line, placeOf(x)) * sample->density();
         sample->values += GasSample::Vector{light.x, light.y, light.z, 0};
       }
+    }
   brick.encode(samples);
 }
 
@@ -258,7 +273,14 @@ float GasMedium::roughTransmittanceHere(GasPath path) const {
   const Vec3f start = (path.origin + path.direction * (path.near + 0.5f * step) - origin_) * perCell,
               stride = path.direction * (step * perCell);
   float depth = 0;
-  for (int s = 0; s < steps; ++s) depth += sampleBlocks(blockExtinction_, start + stride * static_cast<float>(s));
+  constexpr int lanes = 16;
+  for (int first = 0; first < steps; first += lanes) {
+    float extinction[lanes];
+    for (int n = 0; n < lanes; ++n)  // those beyond the last are read at its place, and do not count
+      extinction[n] =
+          sampleBlocks(blockExtinction_, start + stride * static_cast<float>(std::min(first + n, steps - 1)));
+    for (int n = 0; n < std::min(lanes, steps - first); ++n) depth += extinction[n];
+  }
   return std::exp(-depth * step);
 }
 

@@ -1,6 +1,7 @@
 // The gas as light passes it (appendix A.2): the particles' volume marched from front to back.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -29,14 +30,19 @@ class GasOptics {
   explicit GasOptics(const VolumeSettings& settings);
   /// Opacity per metre, kappa = tau d with d = min_d + (max_d - min_d) min(1, density / fullDensity). The part min_d
   /// fades in over the first hundredth of the range, so that thin gas has no rim. [1/m]
-  float extinction(float density) const;
+  float extinction(float density) const {
+    const float share = std::min(std::max(density * perFullDensity_, 0.0f), 1.0f);
+    const float t = std::min(share * perFadeIn, 1.0f);
+    return opacity_ * (minDensity_ * (t * t * (3 - 2 * t)) + densityRange_ * share);
+  }
   /// What fully opaque gas of a blackbody colour gives off itself: part of I in equation A.4.
   Vec3f glow(const Vec3f& colour) const { return colour * emission_; }
   /// The other part: what it scatters of light of that radiance from all around.
   Vec3f scattered(const Vec3f& around) const { return smokeColour_ * around; }
 
  private:
-  float opacity_, minDensity_, densityRange_, fullDensity_, emission_;
+  static constexpr float perFadeIn = 100;  ///< 1 / the share of the density range over which min_d fades in
+  float opacity_, minDensity_, densityRange_, perFullDensity_, emission_;
   Vec3f smokeColour_;
 };
 
