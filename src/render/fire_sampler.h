@@ -20,8 +20,8 @@ class FireSampler {
   bool isDark() const { return upTo_.empty(); }
   /// Not to be called where it is dark.
   FireSample sample(float choice, const Vec2<float>& across, float along) const;
-  /// With which density [1/m3] sample() draws the places of a block.
-  float density(const Vec3i& block) const { return densities_(block.x, block.y, block.z); }
+  /// With which density [1/m3] sample() draws the places of a block, by its number.
+  float density(std::int32_t block) const { return densities_.values[block]; }
 
  private:
   const GasMedium& gas_;

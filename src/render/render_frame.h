@@ -5,6 +5,7 @@
 
 #include "frame/frame.h"
 #include "render/blackbody.h"
+#include "render/camera_rays.h"
 #include "render/environment.h"
 #include "render/gas_medium.h"
 #include "render/image.h"
@@ -27,14 +28,7 @@ struct RenderAssets {
 struct RenderScratch {
   ParticleVolume volume;
   SplatScratch splat;
-  SampleMemory samples;
-};
-
-/// When a picture is taken. The shutter opens half of its time before `filmTime` and closes half after.
-struct PictureTime {
-  double filmTime = 0;              ///< [s] of film: where the camera's keys are
-  double frameDuration = 1.0 / 24;  ///< [s] of film per frame
-  double simulatedPerFilm = 1;  ///< simulated seconds per second of film: how far bodies move while the shutter is open
+  BrickMemory bricks;
 };
 
 /// Draws a frame: the same bits for any number of threads. Throws InputError naming the body and the material when the

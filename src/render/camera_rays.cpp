@@ -1,0 +1,49 @@
+#include "render/camera_rays.h"
+
+#include "render/sampling.h"
+
+namespace brisance {
+namespace {
+
+/// The camera at the start, and at as many further times of the open shutter as a pixel has samples.
+std::vector<Camera> camerasOf(const RenderSettings& settings, const PictureTime& time) {
+  const double open = settings.camera.shutter * time.frameDuration;
+  const int count = open > 0 ? settings.samples * settings.samples : 1;
+  std::vector<Camera> cameras;
+  for (int c = 0; c < count; ++c) {
+    const double when = time.filmTime + open * ((c + 0.5) / count - 0.5);
+    cameras.emplace_back(cameraAt(settings.camera, when), settings.width, settings.height);
+  }
+  return cameras;
+}
+
+}  // namespace
+
+CameraRays::CameraRays(const RenderSettings& settings, const PictureTime& time, int frame)
+    : samples_(settings.samples),
+      weights_(subPixelWeights(settings.samples)),
+      cameras_(camerasOf(settings, time)),
+      jitter_(settings.seed, Stream::pixelJitter),
+      firstPixel_(static_cast<std::uint64_t>(frame) * settings.width * settings.height),
+      width_(settings.width) {}
+
+CameraRay CameraRays::ray(int x, int y, int s) const {
+  const std::uint64_t pixelNumber = firstPixel_ + static_cast<std::uint64_t>(y) * width_ + x;
+  constexpr int drawsPerSample = 4;
+  const std::uint64_t draw = drawsPerSample * (pixelNumber * samples_ * samples_ + s);
+  // A random number over the sub-pixel is its centre plus a centred offset.
+  const double across = x + (s % samples_ + jitter_.uniform(draw)) / samples_;
+  const double down = y + (s / samples_ + jitter_.uniform(draw + 1)) / samples_;
+  // Each sample takes another time of the open shutter, in an order that differs from pixel to pixel.
+  const std::size_t when = (jitter_.below(cameras_.size(), pixelNumber) + s) % cameras_.size();
+  const float time = (static_cast<float>(when) + 0.5f) / static_cast<float>(cameras_.size());
+  // The ways of a pixel through the gas share out a step evenly, from a random start.
+  const double phase =
+      (s + jitter_.uniform(drawsPerSample * pixelNumber * samples_ * samples_ + 2)) / (samples_ * samples_);
+  constexpr std::uint64_t pathDraws = std::uint64_t{1} << 62;  // beyond all draws above
+  SampleSequence numbers(jitter_.bits(pathDraws + pixelNumber), static_cast<std::uint32_t>(s));
+  const CameraWay way = cameras_[when].way(across, down, numbers.pair());
+  return {{Vec3f(way.origin), Vec3f(way.direction), 0, time}, static_cast<float>(phase), numbers};
+}
+
+}  // namespace brisance

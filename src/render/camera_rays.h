@@ -1,0 +1,48 @@
+// The rays of a picture: which ways each pixel looks along, and how much each counts.
+#pragma once
+
+#include <vector>
+
+#include "base/random.h"
+#include "render/camera.h"
+#include "render/sample_sequence.h"
+#include "render/scene_geometry.h"
+
+namespace brisance {
+
+/// When a picture is taken. The shutter opens half of its time before `filmTime` and closes half after.
+struct PictureTime {
+  double filmTime = 0;              ///< [s] of film: where the camera's keys are
+  double frameDuration = 1.0 / 24;  ///< [s] of film per frame
+  double simulatedPerFilm = 1;  ///< simulated seconds per second of film: how far bodies move while the shutter is open
+};
+
+/// One sample of a pixel.
+struct CameraRay {
+  Ray ray;
+  float phase;             ///< 0 .. 1: shifts the samples taken in the gas
+  SampleSequence numbers;  ///< for what the ray meets
+};
+
+/// Jittered samples, one in each of n x n sub-pixels (appendix A.1.3), addressed by frame, pixel and sample.
+class CameraRays {
+ public:
+  CameraRays(const RenderSettings& settings, const PictureTime& time, int frame);
+  int perPixel() const { return static_cast<int>(weights_.size()); }
+  /// How much sample s counts in its pixel; all together 1.
+  float weight(int s) const { return weights_[s]; }
+  /// The colour of its sub-pixel on a checkerboard: 0 or 1.
+  int field(int s) const { return (s / samples_ + s % samples_) % 2; }
+  /// Sample s of pixel (x, y).
+  CameraRay ray(int x, int y, int s) const;
+
+ private:
+  int samples_;
+  std::vector<float> weights_;
+  std::vector<Camera> cameras_;  ///< at as many times of the open shutter
+  Random jitter_;
+  std::uint64_t firstPixel_;
+  int width_;
+};
+
+}  // namespace brisance
