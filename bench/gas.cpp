@@ -2,9 +2,12 @@
 // recomputed in double precision from the result.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 
+#include "base/aligned.h"
 #include "base/lane_sum.h"
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -52,41 +55,81 @@ FluidState burningIn(const FluidSettings& settings) {
   return gas;
 }
 
-void stepGas(benchmark::State& state, int cells, double whirls) {
-  FluidSettings settings = boxOf(cells);
-  settings.buoyancy = 0.01;
-  settings.vorticityConfinement = whirls;
-  FluidState gas = burningIn(settings);
-  FluidScratch scratch;
-  FluidReport report;
-  constexpr double sootPerMass = 1, largestSource = 5;  // [1], [1/s]
-  const auto step = [&] {
-    report = stepFluid(gas, settings, sootPerMass, longestStep(gas, settings, largestSource), scratch);
-  };
-  step();  // fresh memory comes once in a film
-  for (auto _ : state) step();
-  count(state, gas, report.pressure.iterations);
-}
-
 /// The bytes of a step once: its seven fields copied, its three sources read.
-void moveStep(benchmark::State& state, int cells) {
-  const std::int64_t count = std::int64_t{1} * cells * cells * cells, grain = count / 64;
-  std::vector<std::vector<float>> fields(7, std::vector<float>(count, 1)), moved = fields;
-  const std::vector<std::vector<float>> sources(3, std::vector<float>(count, 1));
-  double sum = 0;
-  for (auto _ : state) {
-    for (std::size_t n = 0; n < fields.size(); ++n)
-      parallelFor(0, count, grain, [&](std::int64_t first, std::int64_t last) {
-        std::memcpy(&moved[n][first], &fields[n][first], static_cast<std::size_t>(last - first) * sizeof(float));
+class StepBytes {
+ public:
+  explicit StepBytes(int cells) : count_(std::int64_t{1} * cells * cells * cells) {}
+  void move() {
+    const std::int64_t grain = count_ / 64;
+    for (std::size_t n = 0; n < fields_.size(); ++n)
+      parallelFor(0, count_, grain, [&](std::int64_t first, std::int64_t last) {
+        std::memcpy(&moved_[n][first], &fields_[n][first], static_cast<std::size_t>(last - first) * sizeof(float));
       });
-    for (const auto& source : sources)
-      sum += parallelSum(count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (const auto& source : sources_)
+      sum_ += parallelSum(count_, grain, [&](std::int64_t first, std::int64_t last) {
         double part = 0;
         runWide([&] { part = laneMax(last - first, [&](std::int64_t i) { return source[first + i]; }); });
         return part;
       });
+    benchmark::DoNotOptimize(sum_);
   }
-  benchmark::DoNotOptimize(sum);
+
+ private:
+  using Field = AlignedVector<float>;
+  std::int64_t count_;
+  std::vector<Field> fields_ = std::vector<Field>(7, Field(count_, 1)), moved_ = fields_;
+  std::vector<Field> sources_ = std::vector<Field>(3, Field(count_, 1));
+  double sum_ = 0;
+};
+
+/// Median of seven, of the same run as the row it stands beside.
+double millisecondsOfBytes(int cells) {
+  StepBytes bytes(cells);
+  bytes.move();
+  std::array<double, 7> times;
+  for (double& time : times) {
+    const auto start = std::chrono::steady_clock::now();
+    bytes.move();
+    time = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+struct StepInput {
+  AdvectionScheme advection;
+  double whirls = 0;
+};
+
+/// `bytes` is what moving its bytes once takes [ms], `times` how many times that the step takes.
+void stepGas(benchmark::State& state, int cells, const StepInput& input) {
+  FluidSettings settings = boxOf(cells);
+  settings.buoyancy = 0.01;
+  settings.advection = input.advection;
+  settings.vorticityConfinement = input.whirls;
+  FluidState gas = burningIn(settings);
+  FluidScratch scratch;
+  FluidReport report;
+  StepLimits limits = limitsOf(gas);
+  constexpr double sootPerMass = 1, largestSource = 5;  // [1], [1/s]
+  const auto step = [&] {
+    const double dt = longestStep(gas, settings, largestSource, limits);
+    report = stepFluid(gas, settings, sootPerMass, dt, scratch, limits);
+    limits = report.next;
+  };
+  step();  // fresh memory comes once in a film
+  const auto start = std::chrono::steady_clock::now();
+  for (auto _ : state) step();
+  const double all = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  count(state, gas, report.pressure.iterations);
+  const double bytes = millisecondsOfBytes(cells);
+  state.counters["bytes"] = bytes;
+  state.counters["times"] = all / static_cast<double>(state.iterations()) / bytes;
+}
+
+void moveStep(benchmark::State& state, int cells) {
+  StepBytes bytes(cells);
+  for (auto _ : state) bytes.move();
   state.counters["threads"] = threadCount();
 }
 
@@ -113,8 +156,9 @@ const bool registered = [] {
   keepFreedMemory();
   for (const int cells : {64, 128, 256}) {
     const std::string size = fmt::format("/{}/", cells);
-    add("Step/DonorCell" + size + "Brisance", stepGas, cells, 0.0);
-    add("Step/DonorCellWhirls" + size + "Brisance", stepGas, cells, 0.5);
+    add("Step/DonorCell" + size + "Brisance", stepGas, cells, StepInput{DonorCell{}});
+    add("Step/DonorCellWhirls" + size + "Brisance", stepGas, cells, StepInput{DonorCell{}, 0.5});
+    add("Step/MacCormack" + size + "Brisance", stepGas, cells, StepInput{MacCormack{}});
     add("Step/Bytes" + size + "Memory", moveStep, cells);
   }
   add("Copy/Array/512M/Memory", copyArray);

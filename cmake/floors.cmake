@@ -24,14 +24,14 @@ brisance_floor(mesh USES base LIBRARIES Boost::headers Qhull::qhull_r nlohmann_j
 brisance_floor(fluid USES grid mesh)
 brisance_floor(particles USES grid mesh)
 # Nobody asks for errno or floating-point traps there: without them square roots and choices become vectors. No bit changes.
-foreach(source particles/particle_step fluid/advection fluid/diffusion fluid/donor_sweep fluid/ghost_rows fluid/pressure
-    fluid/semi_lagrangian fluid/temperature fluid/vorticity)
+foreach(source particles/particle_step fluid/advection fluid/closing_sweep fluid/diffusion fluid/flow_findings fluid/ghost_rows fluid/projection fluid/scalar_sweep
+    fluid/semi_lagrangian fluid/temperature fluid/velocity_sweep fluid/vorticity render/gas_bricks render/gas_medium render/gas_tracking)
   set_source_files_properties(${CMAKE_SOURCE_DIR}/src/${source}.cpp PROPERTIES
     COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
 endforeach()
-brisance_floor(rigid USES grid mesh)
+brisance_floor(rigid USES grid mesh LIBRARIES bullet_collision)
 brisance_floor(fracture USES grid mesh LIBRARIES Eigen3::Eigen Boost::headers TBB::tbb TBB::tbbmalloc)
-brisance_floor(frame USES grid mesh LIBRARIES ${OPENVDB_LIBRARY} PkgConfig::IMATH TBB::tbb nlohmann_json::nlohmann_json)
+brisance_floor(frame USES grid mesh LIBRARIES ${OPENVDB_LIBRARY} PkgConfig::BLOSC PkgConfig::IMATH TBB::tbb nlohmann_json::nlohmann_json)
 brisance_floor(simulation USES fluid particles rigid fracture frame LIBRARIES nlohmann_json::nlohmann_json)
 brisance_floor(render USES frame LIBRARIES embree PNG::PNG JPEG::JPEG PkgConfig::OPENEXR TBB::tbb nlohmann_json::nlohmann_json)
 brisance_floor(scene USES simulation render LIBRARIES PkgConfig::TOMLPP nlohmann_json::nlohmann_json)

@@ -67,8 +67,8 @@ RunMotion motionOf(ExportWork& work) {
   work.facts.bodies = motion.bodies.size();
   work.facts.moving =
       static_cast<std::size_t>(std::count_if(motion.bodies.begin(), motion.bodies.end(), [](const BodyMotion& body) {
-        return std::any_of(body.poses.begin(), body.poses.end(),
-                           [&](const Pose& pose) { return !(pose == body.poses.front()); });
+        return !body.shapes.empty() || std::any_of(body.poses.begin(), body.poses.end(),
+                                                   [&](const Pose& pose) { return !(pose == body.poses.front()); });
       }));
   return motion;
 }

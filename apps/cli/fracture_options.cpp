@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view curvatureWeights[] = {"clipped", "raw"};
 constexpr std::string_view edgeWeights[] = {"unit", "length"};
 constexpr std::string_view splits[] = {"list", "level"};
-constexpr std::string_view insides[] = {"all", "smallest"};
+constexpr std::string_view insides[] = {"all", "smallest", "largest"};
 
 /// Options that a scene has keys for.
 constexpr const char* meshOptions[] = {"--method", "--pieces", "--weights",  "--split",     "--parts",
@@ -139,7 +139,7 @@ void addFractureOptions(CLI::App& command, RawFractureOptions& raw) {
   command.add_option("--parts", raw.parts, "of curvature: so many parts, then breadth-first inside them")
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");
-  command.add_option("--inside", raw.inside, "of curvature with --parts: which are broken further: all, smallest")
+  command.add_option("--inside", raw.inside, "of curvature with --parts: which are broken further: all, smallest, largest")
       ->option_text("NAME");
   command.add_option("--split", raw.split, "of breadth_first_thesis: list (default), level")->option_text("NAME");
   command.add_option("--impact", raw.impact, "of voronoi: pieces are small near this point")->option_text("X,Y,Z");

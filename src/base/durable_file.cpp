@@ -1,185 +1,21 @@
 #include "base/durable_file.h"
 
-#include <fcntl.h>
 #include <sys/file.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 #include <xxhash.h>
 
-#include <array>
-#include <cerrno>
 #include <cstring>
-#include <streambuf>
 #include <system_error>
 #include <vector>
 
 #include "base/check.h"
+#include "base/durable_batch.h"
+#include "base/system_file.h"
 
 namespace brisance {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-constexpr std::size_t bufferBytes = 1 << 18;  // large enough that the cost of a system call vanishes
-constexpr std::string_view temporaryPrefix = ".tmp.";
-
-std::string adviceFor(int reason) {
-  switch (reason) {
-    case ENOSPC:
-    case EDQUOT:
-    case EFBIG:
-      return "free some space or choose another place";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return "choose a place that may be written";
-    case ENOENT:
-    case ENOTDIR:
-    case EEXIST:
-      return "its directory must exist and be a directory";
-    default:
-      return "";
-  }
-}
-
-[[noreturn]] void throwSystemError(const fs::path& path, const std::string& what, int reason) {
-  const std::string advice = adviceFor(reason);
-  throw Error(
-      advice.empty() ? ExitCode::failed : ExitCode::noRoom,
-      fmt::format("{}: {}: {}{}{}", path.string(), what, std::strerror(reason), advice.empty() ? "" : "; ", advice));
-}
-
-/// Repeats a system call that a signal broke off.
-template <class Call>
-auto uninterrupted(const Call& call) {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
-
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags)
-      : number_(uninterrupted([&] { return ::open(path.c_str(), flags | O_CLOEXEC, 0666); })) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-  bool ok() const { return number_ >= 0; }
-
- private:
-  int number_;
-};
-
-/// Counts and hashes what it writes, and remembers why the system refused.
-class CheckedBuffer : public std::streambuf {
- public:
-  explicit CheckedBuffer(int descriptor) : descriptor_(descriptor), buffer_(bufferBytes) { restart(); }
-  int reason() const { return reason_; }
-  FileRecord record() const { return {size_, hash_.hex()}; }
-  bool flush() { return sync() == 0; }
-
- protected:
-  int_type overflow(int_type c) override {
-    if (sync() != 0) return traits_type::eof();
-    if (!traits_type::eq_int_type(c, traits_type::eof())) sputc(traits_type::to_char_type(c));
-    return traits_type::not_eof(c);
-  }
-
-  int sync() override {
-    const std::size_t count = static_cast<std::size_t>(pptr() - pbase());
-    if (reason_ == 0 && count > 0) writeAll(pbase(), count);
-    restart();
-    return reason_ == 0 ? 0 : -1;
-  }
-
-  /// Only where writing stands now, for libraries that ask.
-  pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
-    const bool asked = offset == 0 && from == std::ios_base::cur;
-    return asked ? pos_type(static_cast<off_type>(size_) + (pptr() - pbase())) : pos_type(off_type(-1));
-  }
-
- private:
-  void restart() { setp(buffer_.data(), buffer_.data() + buffer_.size()); }
-
-  void writeAll(const char* bytes, std::size_t count) {
-    hash_.add(bytes, count);
-    size_ += count;
-    while (count > 0 && reason_ == 0) {
-      const ssize_t written = uninterrupted([&] { return ::write(descriptor_, bytes, count); });
-      if (written < 0) {
-        reason_ = errno;
-      } else {
-        bytes += written;
-        count -= static_cast<std::size_t>(written);
-      }
-    }
-  }
-
-  int descriptor_;
-  std::vector<char> buffer_;
-  ContentHash hash_;
-  std::uint64_t size_ = 0;
-  int reason_ = 0;
-};
-
-/// The name keeps its extension, since some libraries choose the format by it.
-fs::path temporaryName(const fs::path& path) {
-  return path.parent_path() / fmt::format("{}{}.{}", temporaryPrefix, ::getpid(), path.filename().string());
-}
-
-/// Removes the temporary file unless it was given its final name.
-class Temporary {
- public:
-  explicit Temporary(const fs::path& path) : final_(path), name_(temporaryName(path)) {}
-  ~Temporary() {
-    if (!name_.empty()) ::unlink(name_.c_str());
-  }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  const fs::path& name() const { return name_; }
-
-  void becomeFinal() {
-    if (::rename(name_.c_str(), final_.c_str()) != 0) throwSystemError(final_, "cannot be named", errno);
-    name_.clear();
-    syncDirectory();
-  }
-
- private:
-  void syncDirectory() const {
-    const fs::path parent = final_.parent_path();
-    const Descriptor directory(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY);
-    // Some file systems have nothing to sync in a directory and say EINVAL.
-    if (!directory.ok() || (::fsync(directory.number()) != 0 && errno != EINVAL))
-      throwSystemError(final_, "its directory cannot be synced", errno);
-  }
-
-  fs::path final_, name_;
-};
-
-void syncFile(const Descriptor& file, const fs::path& path) {
-  if (uninterrupted([&] { return ::fsync(file.number()); }) != 0) throwSystemError(path, "cannot be written", errno);
-}
-
-/// Runs the writer; a refusal by the system comes first, whatever else the writer made of it.
-void fill(CheckedBuffer& buffer, const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  std::ostream stream(&buffer);
-  stream.exceptions(std::ios_base::badbit);
-  try {
-    write(stream);
-    buffer.flush();
-  } catch (...) {
-    if (buffer.reason() == 0) throw;
-  }
-  if (buffer.reason() != 0) throwSystemError(path, "cannot be written", buffer.reason());
-  CHECK(!stream.fail(), "writing {} failed without a reason", path.string());
-}
-
-}  // namespace
 
 ContentHash::ContentHash() : state_(XXH3_createState()) {
   if (!state_) throw std::bad_alloc();
@@ -197,14 +33,10 @@ std::string ContentHash::hex() const {
 }
 
 FileRecord writeDurably(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  Temporary temporary(path);
-  const Descriptor file(temporary.name(), O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.ok()) throwSystemError(path, "cannot be written", errno);
-  CheckedBuffer buffer(file.number());
-  fill(buffer, path, write);
-  syncFile(file, path);
-  temporary.becomeFinal();
-  return buffer.record();
+  DurableBatch one;
+  const FileRecord record = one.add(path, write);
+  one.finish();
+  return record;
 }
 
 FileRecord writeDurably(const fs::path& path, std::string_view bytes) {
@@ -213,7 +45,7 @@ FileRecord writeDurably(const fs::path& path, std::string_view bytes) {
 }
 
 FileRecord writeDurablyByName(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  Temporary temporary(path);
+  TemporaryName temporary(path);
   {
     // Refused here with a reason, rather than by a library without one.
     const Descriptor probe(temporary.name(), O_WRONLY | O_CREAT | O_TRUNC);
@@ -229,10 +61,13 @@ FileRecord writeDurablyByName(const fs::path& path, const std::function<void(con
     throwSystemError(path, "cannot be written", ENOSPC);
   const FileRecord record = recordOf(temporary.name());
   temporary.becomeFinal();
+  syncDirectoryOf(path);
   return record;
 }
 
 namespace {
+constexpr std::size_t bufferBytes = 1 << 18;
+
 /// Gives the file's bytes to `take`, a buffer at a time.
 void readThrough(const fs::path& path, const std::function<void(const char*, std::size_t)>& take) {
   const Descriptor file(path, O_RDONLY);

@@ -2,6 +2,7 @@
 
 #include "base/lane_sum.h"
 #include "base/parallel.h"
+#include "base/row_sum.h"
 #include "base/vector_path.h"
 #include "fluid/donor_cell.h"
 #include "fluid/semi_lagrangian.h"
@@ -311,25 +312,25 @@ double largestMagnitude(const Grid3<float>& grid) {
   });
 }
 
-double courantOfSpeeds(const FluidState& gas, double dt) {
+double fastestCell(const FluidState& gas) {
   const Vec3i n = gas.pressure.size;
   const MacVelocity& m = gas.velocity;
-  const double fastest = parallelMax(std::int64_t{n.y} * n.z, 64, [&](std::int64_t first, std::int64_t last) {
-    float largest = 0;
+  return parallelMax(std::int64_t{n.y} * n.z, 64, [&](std::int64_t first, std::int64_t last) {
+    RowMax largest(n.x);
     runWide([&] {
       for (std::int64_t row = first; row < last; ++row) {
         const int j = static_cast<int>(row % n.y), k = static_cast<int>(row / n.y);
         const float *u = &m.u(0, j, k), *below = &m.v(0, j, k), *above = &m.v(0, j + 1, k), *behind = &m.w(0, j, k),
                     *before = &m.w(0, j, k + 1);
-        const float inRow = laneMax(n.x, [&](std::int64_t i) {
+        largest.add([=](std::int64_t i) {
           return largerSpeed(u[i], u[i + 1]) + largerSpeed(below[i], above[i]) + largerSpeed(behind[i], before[i]);
         });
-        largest = std::max(largest, inRow);
       }
     });
-    return static_cast<double>(largest);
+    return static_cast<double>(largest.take());
   });
-  return dt * fastest / gas.pressure.cellSize;
 }
+
+double courantOfSpeeds(const FluidState& gas, double dt) { return dt * fastestCell(gas) / gas.pressure.cellSize; }
 
 }  // namespace brisance

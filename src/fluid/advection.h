@@ -35,7 +35,9 @@ Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSet
 int donorStages(const DonorCell& scheme, double courant);
 
 double largestMagnitude(const Grid3<float>& grid);
-/// The largest of all cells' dt sum |u_i| / h, of the faster of two opposite faces along each axis, as they stand.
+/// [m/s] the largest of all cells' sum |u_i|, of the faster of two opposite faces along each axis, as they stand.
+double fastestCell(const FluidState& gas);
+/// dt / h times that
 double courantOfSpeeds(const FluidState& gas, double dt);
 
 }  // namespace brisance

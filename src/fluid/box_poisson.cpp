@@ -104,20 +104,27 @@ void BoxPoisson::solveAlongZ(CellField& field, const std::uint8_t* planes) const
 }
 
 void BoxPoisson::solve(CellField& field) const {
-  const auto sweep = [&](auto transform) {
-    parallelFor(0, layout_.cells.z, 1, [&](std::int64_t first, std::int64_t last) {
-      LineScratch scratch(layout_);
-      for (int k = static_cast<int>(first); k < last; ++k)
-        (this->*transform)(field.row(0, k), nullptr, scratch.lines.data(), scratch.work.data());
-    });
-  };
-  sweep(&BoxPoisson::toModes);
-  solveAlongZ(field, nullptr);
-  sweep(&BoxPoisson::fromModes);
+  solve(field, [](int, float*) {});
 }
 
-void BoxPoisson::solve(CellField& field, const SparseRegion& region,
-                       const std::function<void(int k, float* plane)>& fill) const {
+void BoxPoisson::solve(CellField& field, const Fill& fill) const {
+  const auto sweep = [&](const auto& work) {
+    parallelFor(0, layout_.cells.z, 1, [&](std::int64_t first, std::int64_t last) {
+      LineScratch scratch(layout_);
+      for (int k = static_cast<int>(first); k < last; ++k) work(k, field.row(0, k), scratch);
+    });
+  };
+  sweep([&](int k, float* plane, LineScratch& scratch) {
+    fill(k, plane);
+    toModes(plane, nullptr, scratch.lines.data(), scratch.work.data());
+  });
+  solveAlongZ(field, nullptr);
+  sweep([&](int, float* plane, LineScratch& scratch) {
+    fromModes(plane, nullptr, scratch.lines.data(), scratch.work.data());
+  });
+}
+
+void BoxPoisson::solve(CellField& field, const SparseRegion& region, const Fill& fill) const {
   const auto sweep = [&](auto work) {
     parallelFor(0, layout_.cells.z, 1, [&](std::int64_t first, std::int64_t last) {
       LineScratch scratch(layout_);

@@ -26,9 +26,13 @@ class BoxPoisson {
 
   /// Replaces b by x in three sweeps over the field. With no open face the mean of b is ignored and that of x is 0.
   void solve(CellField& field) const;
-  /// The same for a b that is zero and an x that is wanted only in a region. `fill` writes b into a plane k of zeros
-  /// (at the given pointer to its cell (0, 0)); what lies outside the region is neither read nor left meaningful.
-  void solve(CellField& field, const SparseRegion& region, const std::function<void(int k, float* plane)>& fill) const;
+  /// The same for a b that `fill` writes plane by plane (at the given pointer to its cell (0, 0)), so that it does not
+  /// come from memory.
+  using Fill = std::function<void(int k, float* plane)>;
+  void solve(CellField& field, const Fill& fill) const;
+  /// The same for a b that is zero and an x that is wanted only in a region. `fill` writes b into a plane k of
+  /// zeros; what lies outside the region is neither read nor left meaningful.
+  void solve(CellField& field, const SparseRegion& region, const Fill& fill) const;
 
  private:
   void toModes(float* plane, const std::uint8_t* tiles, float* lines, float* work) const;

@@ -23,9 +23,9 @@ struct Burning {
 };
 
 /// Carries temperature, soot and flame over dt [s], heats and cools the gas, adds what burnt. Returns the balance of
-/// heat [J].
+/// heat [J]; `hottest` becomes the largest temperature [K].
 Balance sweepScalars(FluidState& gas, const FluidSettings& settings, const Burning& burning, double dt,
-                     SweepScratch& scratch);
+                     SweepScratch& scratch, double& hottest);
 
 /// Carries the velocity over dt [s] and adds external forces and buoyancy; closed faces keep their speed.
 void sweepVelocity(FluidState& gas, const FluidSettings& settings, double dt, SweepScratch& scratch);

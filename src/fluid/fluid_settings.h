@@ -30,6 +30,7 @@ using AdvectionScheme = std::variant<DonorCell, MacCormack, SemiLagrangian>;
 /// Whichever of the solvers below suits the solids in the gas.
 struct AutomaticSolver {
   double tolerance = 1e-4;  ///< of the final velocity's divergence, as below
+  int patience = 100;       ///< iterations of fast_poisson among solids before multigrid goes on from there
   friend bool operator==(const AutomaticSolver&, const AutomaticSolver&) = default;
 };
 

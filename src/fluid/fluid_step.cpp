@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 
-#include "base/lane_sum.h"
 #include "base/parallel.h"
 #include "base/vector_path.h"
 #include "fluid/diffusion.h"
@@ -70,12 +69,12 @@ void moveVelocity(FluidState& gas, const FluidSettings& settings, double dt, Flu
 }  // namespace
 
 FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double sootPerMass, double dt,
-                      FluidScratch& scratch) {
+                      FluidScratch& scratch, const StepLimits& limits) {
   FluidReport report;
-  report.courant = courantNumber(gas, dt);
+  report.courant = courantNumber(gas, limits, dt);
   const Burning burning{sootPerMass, settings.flameLifetime};
   const bool sweeps = sweepsSuffice(settings, report.courant);
-  report.heat = sweeps ? sweepScalars(gas, settings, burning, dt, scratch.sweep)
+  report.heat = sweeps ? sweepScalars(gas, settings, burning, dt, scratch.sweep, report.next.hottest)
                        : moveScalars(gas, settings, burning, dt, scratch);
   takeGasVelocity(gas);
   if (sweeps)
@@ -85,24 +84,29 @@ FluidReport stepFluid(FluidState& gas, const FluidSettings& settings, double soo
   confineVorticity(gas, settings, dt, scratch.sweep.velocity);
   stir(gas, settings, dt);
   takeMeanVelocity(gas);
-  report.pressure = project(gas, settings, dt, scratch.pressure);
-  const Continuity continuity = continuityOf(gas);
-  report.divergence = continuity.error;
-  report.volume.in = dt * continuity.created;
-  report.volume.out = dt * outwardVolume(gas, settings);
+  const Projection projection = projectAndLook(gas, settings, dt, scratch.pressure);
+  report.pressure = projection.pressure;
+  const FlowFindings& flow = projection.flow;
+  const double h = settings.cellSize;
+  report.divergence = flow.error();
+  report.volume.in = dt * flow.created * h * h * h;
+  report.volume.out = dt * flow.outward * h * h;
+  report.next = {flow.fastest, sweeps ? report.next.hottest : largestMagnitude(gas.temperature)};
   return report;
 }
 
-double courantNumber(const FluidState& gas, double dt) {
-  return std::max(courantOfSpeeds(gas, dt), dt * fastestCutCell(gas) / gas.pressure.cellSize);
+StepLimits limitsOf(const FluidState& gas) { return {fastestCell(gas), largestMagnitude(gas.temperature)}; }
+
+double courantNumber(const FluidState& gas, const StepLimits& limits, double dt) {
+  return dt * std::max(limits.fastest, fastestCutCell(gas)) / gas.pressure.cellSize;
 }
 
-double longestStep(const FluidState& gas, const FluidSettings& s, double largestSource) {
+double longestStep(const FluidState& gas, const FluidSettings& s, double largestSource, const StepLimits& limits) {
   const double h = s.cellSize;
-  double inverse = courantNumber(gas, 1) / s.courant;
+  double inverse = courantNumber(gas, limits, 1) / s.courant;
   inverse = std::max(inverse, largestSource / (6 * s.courant));
-  const double hottest = largestMagnitude(gas.temperature) - s.ambientTemperature;
-  const double acceleration = length(s.force) + std::abs(s.buoyancy) * std::max(0.0, hottest);
+  const double acceleration =
+      length(s.force) + std::abs(s.buoyancy) * std::max(0.0, limits.hottest - s.ambientTemperature);
   inverse = std::max(inverse, std::sqrt(acceleration / (h * s.courant)));
   return inverse > 0 ? 1 / inverse : HUGE_VAL;
 }

@@ -1,7 +1,6 @@
 #include "fluid/ghost_rows.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/vector_path.h"
 
@@ -31,26 +30,19 @@ Crossing crossingAt(const MacVelocity& velocity, int face, int along, Vec3i plac
           normal.size.x - 1};
 }
 
-/// A few cache lines: calling the library for them takes longer than copying.
-void copyRow(const float* from, int count, float* to) {
-  constexpr int line = 16;
-  runWide([&] {
-    int i = 0;
-    for (; i + line <= count; i += line) std::memcpy(to + i, from + i, line * sizeof(float));
-    for (; i < count; ++i) to[i] = from[i];
-  });
-}
-
-bool comesIn(int face, float speed) { return face % 2 ? speed < 0 : speed > 0; }
 }  // namespace
 
-float GhostRows::end(int face, int j, int k) const {
-  const int last = samples_.size.x - 1;
-  if (faces_[face] == FaceKind::periodic) return samples_(face % 2 ? last + 1 - period(0) : period(0) - 1, j, k);
-  const float inner = samples_(face % 2 ? last : 0, j, k);
-  if (faces_[face] == FaceKind::open)
-    return comesIn(face, crossingAt(velocity_, face, along_, {0, j, k})(0)) ? outer_ : inner;
-  return reversedAt(face) ? -inner : inner;
+GhostRows::GhostRows(const Grid3<float>& samples, int along, float outer, const MacVelocity& velocity,
+                     const Faces& faces)
+    : samples_(samples), along_(along), outer_(outer), velocity_(velocity), faces_(faces), ends_{endOf(0), endOf(1)} {}
+
+GhostRows::End GhostRows::endOf(int side) const {
+  const std::int64_t last = samples_.size.x - 1, beyond = side ? last + 1 : -1;
+  const bool periodic = faces_[side] == FaceKind::periodic;
+  return {.source = periodic ? beyond + (side ? -period(0) : period(0)) : std::clamp<std::int64_t>(beyond, 0, last),
+          .sign = reversedAt(side) ? -1.0f : 1.0f,
+          .open = faces_[side] == FaceKind::open,
+          .face = side ? velocity_.u.size.x - 1 : 0};
 }
 
 const float* GhostRows::madeRow(int face, int j, int k, float* room) const {
@@ -72,26 +64,17 @@ const float* GhostRows::madeRow(int face, int j, int k, float* room) const {
   return room;
 }
 
-const float* GhostRows::row(int j, int k, float* room) const {
+const float* GhostRows::rowBeyond(int j, int k, float* room) const {
   int place[2] = {j, k};
-  for (const int axis : {1, 2}) {
-    int& at = place[axis - 1];
-    const int count = samples_.size[axis];
-    if (at >= 0 && at < count) continue;
-    const int face = 2 * axis + (at < 0 ? 0 : 1);
-    const bool around = faces_[face] == FaceKind::periodic;
-    at = around ? at + (at < 0 ? period(axis) : -period(axis)) : std::clamp(at, 0, count - 1);
-    return around ? &samples_(0, place[0], place[1]) : madeRow(face, place[0], place[1], room);
+  const int axis = j < 0 || j >= samples_.size.y ? 1 : 2;
+  int& at = place[axis - 1];
+  const int face = 2 * axis + (at < 0 ? 0 : 1);
+  if (faces_[face] == FaceKind::periodic) {
+    at += at < 0 ? period(axis) : -period(axis);
+    return &samples_(0, place[0], place[1]);
   }
-  return &samples_(0, j, k);
-}
-
-const float* GhostRows::withEnds(int j, int k, float* room) const {
-  float* copy = room + 1;
-  copyRow(&samples_(0, j, k), length(), copy);
-  copy[-1] = end(0, j, k);
-  copy[length()] = end(1, j, k);
-  return copy;
+  at = std::clamp(at, 0, samples_.size[axis] - 1);
+  return madeRow(face, place[0], place[1], room);
 }
 
 }  // namespace brisance

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include "base/lane_sum.h"
-#include "base/parallel.h"
-#include "base/vector_path.h"
+#include "fluid/closing_sweep.h"
 #include "fluid/multigrid.h"
 #include "fluid/projection.h"
 
@@ -23,13 +22,17 @@ void prepareFields(const FluidState& gas, PressureScratch& scratch) {
     if (!(field->layout == layout)) *field = CellField(layout);
 }
 
+/// Solves directly for b, which is not written yet; returns what it was.
+using DirectSolution = std::function<SourceNorms(CellField& field)>;
+
 /// What is corrected, and how far.
 struct Correction {
   FluidState& gas;
   const FluidSettings& settings;
   double dt, tolerance;
   const BodyPush& push;
-  bool further = false;  ///< the pressure of an earlier attempt is added to
+  bool further = false;        ///< the pressure of an earlier attempt is added to
+  DirectSolution direct = {};  ///< of the first correction, if there is one
 };
 
 /// Spaces that only a source of sum zero suits: a body that gives way would be one's way out.
@@ -65,43 +68,79 @@ void clearRegions(const SolidStamp& solid, const std::vector<std::uint8_t>& quie
 }
 
 /// Makes the velocity obey by corrections, each from the divergence that the velocity itself still has, so that
-/// rounding in the solver cannot hide. `solve(goal)` replaces `field`, b, by x with a residual of goal |b|; where it
-/// gives up, no further correction is tried.
-template <class Solve>
-PressureReport correctVelocity(const Correction& task, CellField& field, const Solve& solve) {
-  constexpr int mostPasses = 8;
-  constexpr double aim = 0.7;               // of what is left to do, so that rounding does not cost another pass
-  constexpr double singlePrecision = 1e-4;  // relative residual that one solution in single precision surely reaches
-  FluidState& gas = task.gas;
-  const SealedRegions sealed = sealedRegions(gas.solid, task.push);
-  const bool refuse = !task.settings.removeMeanSource && gas.solid.bodies.empty();
-  std::vector<std::uint8_t> quiet;
-  PressureReport report;
-  double atFirst = 0;
-  bool gaveUp = false;
-  for (int pass = 0;; ++pass) {
-    const SourceNorms norms = computeSource(gas, field);
-    if (pass == 0) quiet = quietRegions(gas.solid, task.push, field);
-    const PocketSources pockets = removePocketSources(gas, sealed, refuse && pass == 0,
-                                                      [&](int i, int j, int k) -> float& { return field(i, j, k); });
-    const double left = pockets.count > 0 ? fieldNorm(field) : norms.source;
-    if (pass == 0) {
-      atFirst = left;
-      report.sealedPockets = pockets.count;
-      report.removedSource = pockets.removed;
+/// rounding in the solver cannot hide. What is left is looked for in the velocity, in double precision.
+class VelocityCorrection {
+ public:
+  VelocityCorrection(const Correction& task, CellField& field)
+      : task_(task), gas_(task.gas), field_(field), sealed_(sealedRegions(gas_.solid, task.push)) {}
+
+  /// `solve(goal)` replaces `field`, b, by x with a residual of goal |b|; where it gives up, no further correction is
+  /// tried.
+  template <class Solve>
+  Projection run(const Solve& solve) {
+    constexpr int mostPasses = 8;
+    constexpr double aim = 0.7;               // of what is left to do, so that rounding does not cost another pass
+    constexpr double singlePrecision = 1e-4;  // relative residual that one solution in single precision surely reaches
+    int pass = 0;
+    if (task_.direct) {
+      begin(task_.direct(field_));
+      report_.iterations = 1;
+      close(pass++ == 0);
+    } else {
+      begin(findSource(true));
+      quiet_ = quietRegions(gas_.solid, task_.push, field_);
     }
-    const double goal = std::max(task.tolerance * atFirst, norms.rounding);
-    report.residual = atFirst > 0 ? left / atFirst : 0;
-    report.converged = left <= goal;
-    if (report.converged || gaveUp || pass == mostPasses) return report;
-    const PressureReport correction = solve(std::max(aim * goal / left, singlePrecision));
-    report.iterations += correction.iterations;
-    gaveUp = !correction.converged;
-    clearRegions(gas.solid, quiet, field);
-    task.push.apply(field, gas);
-    subtractGradient(gas, task.settings.faces, task.dt, field, pass == 0 && !task.further);
+    for (bool gaveUp = false; !(obeys() || gaveUp || pass == mostPasses); ++pass) {
+      if (pass > 0) findSource(false);
+      const PressureReport correction = solve(std::max(aim * goal_ / left_, singlePrecision));
+      report_.iterations += correction.iterations;
+      gaveUp = !correction.converged;
+      close(pass == 0);
+    }
+    return {report_, flow_ ? *flow_ : lookAtFlow(gas_)};
   }
-}
+
+ private:
+  void begin(const SourceNorms& norms) {
+    atFirst_ = left_ = norms.source;
+    goal_ = std::max(task_.tolerance * atFirst_, norms.rounding);
+  }
+  bool obeys() {
+    report_.residual = atFirst_ > 0 ? left_ / atFirst_ : 0;
+    report_.converged = left_ <= goal_;
+    return report_.converged;
+  }
+  /// Into the field, less what sealed pockets cannot obey.
+  SourceNorms findSource(bool first) {
+    SourceNorms norms = computeSource(gas_, field_);
+    const bool refuse = first && !task_.settings.removeMeanSource && gas_.solid.bodies.empty();
+    const PocketSources pockets =
+        removePocketSources(gas_, sealed_, refuse, [&](int i, int j, int k) -> float& { return field_(i, j, k); });
+    if (pockets.count > 0) norms.source = fieldNorm(field_);
+    if (first) {
+      report_.sealedPockets = pockets.count;
+      report_.removedSource = pockets.removed;
+    }
+    return norms;
+  }
+  /// Takes the solution's gradient from the velocity.
+  void close(bool first) {
+    clearRegions(gas_.solid, quiet_, field_);
+    task_.push.apply(field_, gas_);
+    flow_ = closeStep(gas_, task_.settings.faces, task_.dt, field_, first && !task_.further);
+    const double h = gas_.pressure.cellSize;
+    left_ = report_.sealedPockets > 0 ? findSource(false).source : h * h * std::sqrt(flow_->wrong);
+  }
+
+  const Correction& task_;
+  FluidState& gas_;
+  CellField& field_;
+  SealedRegions sealed_;
+  std::vector<std::uint8_t> quiet_;
+  PressureReport report_;
+  double atFirst_ = 0, left_ = 0, goal_ = 0;
+  std::optional<FlowFindings> flow_;
+};
 
 BodyPush pushOf(const FluidState& gas, const FluidSettings& settings) {
   return gas.solid.bodies.empty() ? BodyPush() : BodyPush(gas.solid, CellLayout(gas.pressure.size), settings.density);
@@ -116,8 +155,16 @@ void refusePeriodic(const Faces& faces, const char* solver) {
     throw InputError(fmt::format("gas.pressure.type: {} does not know periodic faces: use fast_poisson", solver));
 }
 
-PressureReport projectBy(const FastPoisson& s, FluidState& gas, const FluidSettings& settings, double dt,
-                         PressureScratch& scratch) {
+/// In a box without solids, of which gas finds a way out, nothing about b needs to be known before: it is written plane
+/// by plane where it is transformed.
+SourceNorms solveEmptyBox(const FluidState& gas, const BoxPoisson& box, CellField& field) {
+  VelocitySource source(gas);
+  box.solve(field, [&](int k, float* plane) { source.plane(k, plane, box.layout().row); });
+  return source.norms();
+}
+
+Projection projectBy(const FastPoisson& s, FluidState& gas, const FluidSettings& settings, double dt,
+                     PressureScratch& scratch) {
   prepareBox(gas, settings.faces, scratch);
   prepareFields(gas, scratch);
   if (gas.solid.empty)
@@ -125,29 +172,34 @@ PressureReport projectBy(const FastPoisson& s, FluidState& gas, const FluidSetti
   else
     scratch.surface = findSurface(gas.solid, *scratch.box);
   addPush(pushOf(gas, settings), scratch.surface);
-  return correctVelocity({gas, settings, dt, s.tolerance, scratch.surface.push}, scratch.field, [&](double goal) {
+  Correction task{gas, settings, dt, s.tolerance, scratch.surface.push};
+  if (gas.solid.empty && gas.solid.pocketCount() == 0)
+    task.direct = [&](CellField& field) { return solveEmptyBox(gas, *scratch.box, field); };
+  return VelocityCorrection(task, scratch.field).run([&](double goal) {
     return solveFastPoisson(*scratch.box, scratch.surface, goal, s.maxIterations, scratch.field, scratch.work,
                             scratch.surfaceVectors);
   });
 }
 
-PressureReport correctByMultigrid(const MultigridSolver& s, bool further, FluidState& gas,
-                                  const FluidSettings& settings, double dt, PressureScratch& scratch) {
+Projection correctByMultigrid(const MultigridSolver& s, bool further, FluidState& gas, const FluidSettings& settings,
+                              double dt, PressureScratch& scratch) {
   prepareFields(gas, scratch);
   const BodyPush push = pushOf(gas, settings);
   Multigrid multigrid(gas.solid, settings.faces, push);
-  return correctVelocity({gas, settings, dt, s.tolerance, push, further}, scratch.field,
-                         [&](double goal) { return multigrid.solve(scratch.field, goal, s.maxIterations); });
+  const Correction task{gas, settings, dt, s.tolerance, push, further};
+  return VelocityCorrection(task, scratch.field).run([&](double goal) {
+    return multigrid.solve(scratch.field, goal, s.maxIterations);
+  });
 }
 
-PressureReport projectBy(const MultigridSolver& s, FluidState& gas, const FluidSettings& settings, double dt,
-                         PressureScratch& scratch) {
+Projection projectBy(const MultigridSolver& s, FluidState& gas, const FluidSettings& settings, double dt,
+                     PressureScratch& scratch) {
   refusePeriodic(settings.faces, "multigrid");
   return correctByMultigrid(s, false, gas, settings, dt, scratch);
 }
 
-PressureReport projectBy(const ConjugateGradient& s, FluidState& gas, const FluidSettings& settings, double dt,
-                         PressureScratch& scratch) {
+Projection projectBy(const ConjugateGradient& s, FluidState& gas, const FluidSettings& settings, double dt,
+                     PressureScratch& scratch) {
   refusePeriodic(settings.faces, "conjugate_gradient");
   if (!pushOf(gas, settings).empty())
     throw InputError("gas.pressure.type: conjugate_gradient does not push bodies: use auto");
@@ -161,71 +213,30 @@ PressureReport projectBy(const ConjugateGradient& s, FluidState& gas, const Flui
   report.sealedPockets = pockets.count;
   report.removedSource = pockets.removed;
   applySolution(gas, op, dt, vectors);
-  return report;
+  return {report, lookAtFlow(gas)};
 }
 
 /// fast_poisson, an iteration of which costs a seventh of a multigrid one (128^3 cells, three solids); where it takes
 /// so many that multigrid would have been done, multigrid goes on from there. It knows periodic faces not.
-PressureReport projectBy(const AutomaticSolver& s, FluidState& gas, const FluidSettings& settings, double dt,
-                         PressureScratch& scratch) {
-  constexpr int patience = 100;
+Projection projectBy(const AutomaticSolver& s, FluidState& gas, const FluidSettings& settings, double dt,
+                     PressureScratch& scratch) {
   if (anyPeriodic(settings.faces)) return projectBy(FastPoisson{s.tolerance}, gas, settings, dt, scratch);
-  PressureReport report = projectBy(FastPoisson{s.tolerance, patience}, gas, settings, dt, scratch);
-  if (report.converged) return report;
+  Projection done = projectBy(FastPoisson{s.tolerance, s.patience}, gas, settings, dt, scratch);
+  PressureReport& report = done.pressure;
+  if (report.converged) return done;
   const MultigridSolver rest{std::min(0.5, s.tolerance / report.residual)};
-  const PressureReport further = correctByMultigrid(rest, true, gas, settings, dt, scratch);
-  report.iterations += further.iterations;
-  report.residual *= further.residual;
-  report.converged = further.converged;
-  return report;
+  const Projection further = correctByMultigrid(rest, true, gas, settings, dt, scratch);
+  report.iterations += further.pressure.iterations;
+  report.residual *= further.pressure.residual;
+  report.converged = further.pressure.converged;
+  done.flow = further.flow;
+  return done;
 }
 }  // namespace
 
-PressureReport project(FluidState& gas, const FluidSettings& settings, double dt, PressureScratch& scratch) {
+Projection projectAndLook(FluidState& gas, const FluidSettings& settings, double dt, PressureScratch& scratch) {
   return std::visit([&](const auto& solver) { return projectBy(solver, gas, settings, dt, scratch); },
                     settings.pressure);
-}
-
-Continuity continuityOf(const FluidState& gas) {
-  const Vec3i n = gas.pressure.size;
-  const double perLength = 1 / gas.pressure.cellSize;
-  struct Sums {
-    double error = 0, source = 0, created = 0;
-  };
-  std::vector<Sums> planes(n.z);
-  const auto addRow = [&](int j, int k, Sums& sums) {
-    const MacVelocity& m = gas.velocity;
-    const float *u = &m.u(0, j, k), *v = &m.v(0, j, k), *vUpper = &m.v(0, j + 1, k);
-    const float *w = &m.w(0, j, k), *wUpper = &m.w(0, j, k + 1), *phi = &gas.divergence(0, j, k);
-    const std::uint8_t* inside = &gas.solid.inside(0, j, k);
-    sums.error += laneSum(n.x, [&](std::int64_t i) {
-      const double flow = (double(u[i + 1]) - u[i]) + (double(vUpper[i]) - v[i]) + (double(wUpper[i]) - w[i]);
-      const double wrong = flow * perLength - phi[i];
-      return inside[i] ? 0 : wrong * wrong;
-    });
-    sums.source += laneSum(n.x, [&](std::int64_t i) {
-      const double source = double(phi[i]) * phi[i];
-      return inside[i] ? 0 : source;
-    });
-    sums.created += laneSum(n.x, [&](std::int64_t i) {
-      const float source = phi[i];
-      return inside[i] ? 0 : source;
-    });
-  };
-  parallelFor(0, n.z, 2, [&](std::int64_t first, std::int64_t last) {
-    for (int k = static_cast<int>(first); k < last; ++k)
-      runWide([&] {
-        for (int j = 0; j < n.y; ++j) addRow(j, k, planes[k]);
-      });
-  });
-  Sums all;
-  for (const Sums& plane : planes) {
-    all.error += plane.error;
-    all.source += plane.source;
-    all.created += plane.created;
-  }
-  const double h = gas.pressure.cellSize;
-  return {std::sqrt(all.error) / (all.source > 0 ? std::sqrt(all.source) : 1), all.created * h * h * h};
 }
 
 double outwardVolume(const FluidState& gas, const FluidSettings& settings) {

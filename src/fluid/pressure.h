@@ -5,6 +5,7 @@
 
 #include "fluid/conjugate_gradient.h"
 #include "fluid/fast_poisson.h"
+#include "fluid/flow_findings.h"
 
 namespace brisance {
 
@@ -17,19 +18,25 @@ struct PressureScratch {
   CellField field, work;
 };
 
+/// What a projection did and what it left.
+struct Projection {
+  PressureReport pressure;
+  FlowFindings flow;
+};
 /// Makes div u = phi over dt [s] and keeps the pressure (as the next start of conjugate_gradient). A sealed pocket with
 /// a net source cannot obey: the mean over its cells is taken from the source if the settings say so, and reported,
 /// else InputError.
-PressureReport project(FluidState& gas, const FluidSettings& settings, double dt, PressureScratch& scratch);
+Projection projectAndLook(FluidState& gas, const FluidSettings& settings, double dt, PressureScratch& scratch);
+inline PressureReport project(FluidState& gas, const FluidSettings& settings, double dt, PressureScratch& scratch) {
+  return projectAndLook(gas, settings, dt, scratch).pressure;
+}
 
-/// How well a velocity obeys its source, from itself, in double precision.
-struct Continuity {
-  double error = 0;  ///< |div u - phi| over the cells of gas relative to |phi| (L2; absolute where phi is 0 everywhere)
-  double created = 0;  ///< [m3/s] of gas, by the source
-};
-Continuity continuityOf(const FluidState& gas);
-inline double divergenceError(const FluidState& gas) { return continuityOf(gas).error; }
-inline double createdVolume(const FluidState& gas) { return continuityOf(gas).created; }
+/// How well a velocity obeys its source, from itself (FlowFindings::error).
+inline double divergenceError(const FluidState& gas) { return lookAtFlow(gas).error(); }
+/// [m3/s] of gas, by the source.
+inline double createdVolume(const FluidState& gas) {
+  return lookAtFlow(gas).created * std::pow(gas.pressure.cellSize, 3);
+}
 /// [m3/s] leaving through the box's faces.
 double outwardVolume(const FluidState& gas, const FluidSettings& settings);
 

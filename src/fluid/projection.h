@@ -1,5 +1,5 @@
-// The two ends of the projection: what the velocity still lacks, as a source for the solvers, and the gradient of their
-// solution taken from it. Legend: h the cell size; b = h^2 (phi - div u) = h^2 (-div grad) x; x = dt p.
+// What the velocity still lacks, as a source for the solvers. Legend: h the cell size; b = h^2 (phi - div u) = h^2
+// (-div grad) x; x = dt p.
 #pragma once
 
 #include <cmath>
@@ -19,12 +19,25 @@ struct SourceNorms {
   double source = 0;    ///< |b|
   double rounding = 0;  ///< what |b| may be merely because velocities are rounded to single precision
 };
-/// Writes b, zero in solids.
+/// b, plane by plane.
+class VelocitySource {
+ public:
+  explicit VelocitySource(const FluidState& gas);
+  /// Writes plane k to rows `stride` apart, zero in solids. Planes may come from several threads at once.
+  void plane(int k, float* b, std::int64_t stride);
+  /// Of all planes, once they are written.
+  SourceNorms norms() const;
+
+ private:
+  struct Sums {
+    double source = 0, speeds = 0;
+  };
+  const FluidState& gas_;
+  std::vector<Sums> planes_;
+};
+/// Writes all of b.
 SourceNorms computeSource(const FluidState& gas, CellField& b);
 double fieldNorm(const CellField& field);
-
-/// u += grad x through open faces, and pressure = x / dt, or += where a correction follows (`first` false).
-void subtractGradient(FluidState& gas, const Faces& faces, double dt, const CellField& x, bool first);
 
 /// Sealed pockets, and the net source [m3/s] that was let go in them: the sum of its magnitudes.
 struct PocketSources {

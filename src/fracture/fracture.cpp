@@ -37,6 +37,11 @@ double edgeLength(const TriangleMesh& mesh, std::uint32_t triangle, int edge) {
   return length(mesh.vertices[t[(edge + 1) % 3]] - mesh.vertices[t[edge]]);
 }
 
+Vec3d edgeMiddle(const TriangleMesh& mesh, std::uint32_t triangle, int edge) {
+  const Triangle& t = mesh.triangles[triangle];
+  return (mesh.vertices[t[edge]] + mesh.vertices[t[(edge + 1) % 3]]) / 2.0;
+}
+
 /// A shared border that closes on itself has no direction: then the one from centroid to centroid, else upwards.
 Vec3d bondNormal(const Vec3d& sum, double sharedLength, const Vec3d& betweenCentroids) {
   constexpr double leastShare = 1e-6;  // of the sum's longest possible value: below it is rounding
@@ -48,6 +53,7 @@ Vec3d bondNormal(const Vec3d& sum, double sharedLength, const Vec3d& betweenCent
 struct SharedBorder {
   double length = 0;  ///< [m]
   Vec3d outwardSum;   ///< edge by edge, from the lower piece [m]
+  Vec3d moment;       ///< middles of edges times their lengths [m2]
 };
 
 /// Bonds across all edges between pieces of a cut mesh whose cut faces are `depth` [m] high, ordered by a, then b.
@@ -62,14 +68,16 @@ std::vector<Bond> bondsBetween(const TriangleMesh& mesh, const Partition& partit
       const bool lower = partition.pieceOf[t] < partition.pieceOf[other];
       SharedBorder& border = borders[std::minmax(partition.pieceOf[t], partition.pieceOf[other])];
       // Each edge is met twice, from both sides: half its length, and half of each side's outward direction.
-      border.length += edgeLength(mesh, t, edge) / 2;
+      const double half = edgeLength(mesh, t, edge) / 2;
+      border.length += half;
+      border.moment += edgeMiddle(mesh, t, edge) * half;
       border.outwardSum += outwardAcross(mesh, t, edge) * (lower ? 0.5 : -0.5);
     }
   std::vector<Bond> bonds;
   for (const auto& [pair, border] : borders) {
     const Vec3d between = pieces[pair.second].place - pieces[pair.first].place;
-    bonds.push_back(
-        {pair.first, pair.second, border.length * depth, bondNormal(border.outwardSum, border.length, between)});
+    bonds.push_back({pair.first, pair.second, border.length * depth,
+                     bondNormal(border.outwardSum, border.length, between), border.moment / border.length});
   }
   return bonds;
 }

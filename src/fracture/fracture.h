@@ -12,7 +12,7 @@ struct Bond {
   int a = 0, b = 0;
   double area = 0;  ///< [m2]
   Vec3d normal;     ///< from a to b
-  Vec3d place{};    ///< [m] centroid of the shared faces of solid pieces, in the body's coordinates
+  Vec3d place{};    ///< [m] centroid of the shared faces, or of the shared border of shells, in the body's coordinates
 };
 
 struct Piece {

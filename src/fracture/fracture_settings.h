@@ -20,7 +20,7 @@ struct BreadthFirstThesis {
 };
 
 enum class CurvatureWeights { clipped, raw };
-enum class InsideParts { all, smallest };
+enum class InsideParts { all, smallest, largest };
 /// Thesis Algorithm 6: edges are as strong as the surface is flat. The weakest cut first, by recursion.
 struct Curvature {
   CurvatureWeights weights = CurvatureWeights::clipped;

@@ -256,29 +256,31 @@ FractureGraph insideParts(const FractureGraph& graph, const Partition& parts, st
   return inside;
 }
 
-int smallestPart(const Partition& parts) {
+int chosenPart(const Partition& parts, InsideParts which) {
   std::vector<int> sizes(parts.count, 0);
   for (const int part : parts.pieceOf) ++sizes[part];
-  return static_cast<int>(std::min_element(sizes.begin(), sizes.end()) - sizes.begin());
+  const auto chosen = which == InsideParts::smallest ? std::min_element(sizes.begin(), sizes.end())
+                                                     : std::max_element(sizes.begin(), sizes.end());
+  return static_cast<int>(chosen - sizes.begin());
 }
 
-/// The smallest part broken so that there are `pieces` in all.
-Partition breakSmallest(const FractureGraph& graph, const Partition& parts, int pieces) {
-  const int smallest = smallestPart(parts);
-  const FractureGraph inside = insideParts(graph, parts, smallest);
+/// The smallest or the largest part broken so that there are `pieces` in all.
+Partition breakOne(const FractureGraph& graph, const Partition& parts, InsideParts which, int pieces) {
+  const int chosen = chosenPart(parts, which);
+  const FractureGraph inside = insideParts(graph, parts, chosen);
   const int most = inside.nodeCount() + parts.count - 1;
   if (pieces > most)
     throw InputError(fmt::format(
-        "fracture: pieces: must be at most {} where only the smallest of {} parts, of {} triangles, is broken, got {}",
-        most, parts.count, inside.nodeCount(), pieces));
+        "fracture: pieces: must be at most {} where only the {} of {} parts, of {} triangles, is broken, got {}",
+        most, which == InsideParts::smallest ? "smallest" : "largest", parts.count, inside.nodeCount(), pieces));
   const Partition broken = partitionBreadthFirst(inside, pieces - parts.count + 1);
   Partition result = parts;
   result.count = parts.count - 1 + broken.count;
   auto next = broken.pieceOf.begin();
   for (int& piece : result.pieceOf)
-    if (piece == smallest) {
+    if (piece == chosen) {
       const int inner = *next++;
-      piece = inner == 0 ? smallest : parts.count - 1 + inner;
+      piece = inner == 0 ? chosen : parts.count - 1 + inner;
     }
   return result;
 }
@@ -295,7 +297,7 @@ SpectralPartition partitionSurface(const TriangleMesh& mesh, const Curvature& cu
   if (result.partition.count >= pieces) return result;
   result.partition = curvature.inside == InsideParts::all
                          ? partitionBreadthFirst(insideParts(neighbours, result.partition, std::nullopt), pieces)
-                         : breakSmallest(neighbours, result.partition, pieces);
+                         : breakOne(neighbours, result.partition, curvature.inside, pieces);
   return result;
 }
 

@@ -24,12 +24,14 @@ Vec3d vectorFrom(const Json& json) {
 
 Json toJson(const FrameBody& body) {
   const Quaternion& q = body.pose.orientation;
-  return {{"name", body.name},
-          {"position", toJson(body.pose.position)},
-          {"orientation", {finite(q.w), finite(q.x), finite(q.y), finite(q.z)}},
-          {"linear_velocity", toJson(body.linearVelocity)},
-          {"angular_velocity", toJson(body.angularVelocity)},
-          {"temperature", finite(body.temperature)}};
+  Json json{{"name", body.name},
+            {"position", toJson(body.pose.position)},
+            {"orientation", {finite(q.w), finite(q.x), finite(q.y), finite(q.z)}},
+            {"linear_velocity", toJson(body.linearVelocity)},
+            {"angular_velocity", toJson(body.angularVelocity)},
+            {"temperature", finite(body.temperature)}};
+  if (body.shapeFrame > 0) json["shape_frame"] = body.shapeFrame;
+  return json;
 }
 
 FrameBody bodyFrom(const Json& json) {
@@ -41,6 +43,7 @@ FrameBody bodyFrom(const Json& json) {
   body.linearVelocity = vectorFrom(json.at("linear_velocity"));
   body.angularVelocity = vectorFrom(json.at("angular_velocity"));
   body.temperature = json.at("temperature").get<double>();
+  body.shapeFrame = json.value("shape_frame", 0);
   return body;
 }
 
@@ -91,6 +94,7 @@ std::string contentHash(const std::vector<FrameBody>& bodies) {
     const double values[] = {p.x, p.y, p.z, q.w, q.x, q.y, q.z, v.x, v.y, v.z, w.x, w.y, w.z, body.temperature};
     hash.add(body.name);
     hash.add(values, sizeof values);
+    if (body.shapeFrame > 0) hash.add(&body.shapeFrame, sizeof body.shapeFrame);
   }
   return hash.hex();
 }

@@ -20,6 +20,7 @@ struct FrameBody {
   Vec3d angularVelocity;   ///< [1/s]
   double temperature = 0;  ///< [K]
   bool moves = true;       ///< false: scenery
+  int shapeFrame = 0;      ///< frame in which its mesh last took another shape; 0: as it was at rest
 };
 
 /// One entry per particle in each array.

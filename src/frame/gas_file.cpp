@@ -1,20 +1,20 @@
 #include "frame/gas_file.h"
 
 #include <openvdb/io/Archive.h>
+#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <functional>
-#include <span>
 #include <sstream>
 #include <tuple>
 #include <vector>
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "frame/leaf_packing.h"
 
 namespace brisance {
 
@@ -34,42 +34,6 @@ constexpr int leafOffset(int n) {
   return (i * brickSide + j) * brickSide + k;
 }
 
-/// Inactive values are kept by the file only as the background, so whatever differs by a single bit is active.
-template <class T>
-bool sameBits(const T& a, const T& b) {
-  return std::memcmp(&a, &b, sizeof(T)) == 0;
-}
-
-/// Straight into the leaf's memory and its mask, one word of which covers the samples of one i.
-template <class Leaf, class T>
-std::unique_ptr<Leaf> makeLeaf(const typename SparseGrid<T>::Brick& brick, const T& background) {
-  auto leaf = std::make_unique<Leaf>(openvdb::Coord(brick.corner.x, brick.corner.y, brick.corner.z), toVdb(background));
-  auto* values = leaf->buffer().data();
-  typename Leaf::NodeMaskType active;
-  for (int i = 0; i < brickSide; ++i) {
-    std::uint64_t word = 0;
-    for (int bit = 0; bit < brickSide * brickSide; ++bit) {
-      const int j = bit / brickSide, k = bit % brickSide;
-      const T& value = brick.values[i + brickSide * (j + brickSide * k)];
-      values[brickSide * brickSide * i + bit] = toVdb(value);
-      word |= static_cast<std::uint64_t>(!sameBits(value, background)) << bit;
-    }
-    active.template getWord<std::uint64_t>(i) = word;
-  }
-  leaf->setValueMask(active);
-  return leaf;
-}
-
-template <class Leaf, class T>
-std::vector<std::unique_ptr<Leaf>> makeLeaves(const SparseGrid<T>& grid) {
-  std::vector<std::unique_ptr<Leaf>> leaves(grid.bricks.size());
-  constexpr std::int64_t grain = 64;
-  parallelFor(0, static_cast<std::int64_t>(leaves.size()), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t n = first; n < last; ++n) leaves[n] = makeLeaf<Leaf>(grid.bricks[n], grid.background);
-  });
-  return leaves;
-}
-
 /// y up becomes z up: (x, y, z) goes to (x, -z, y). Points are rows there.
 openvdb::Mat4R yUpToZUp() { return {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1}; }
 
@@ -80,116 +44,125 @@ SparseGrid<Vec3f> turnedToZUp(SparseGrid<Vec3f> grid) {
   return grid;
 }
 
+/// The grid with leaves that have masks but no samples, and the bricks in the order of its leaves.
+template <class VdbGrid>
+struct Skeleton {
+  typename VdbGrid::Ptr grid;
+  std::vector<std::uint32_t> order;
+};
+
 template <class VdbGrid, class T>
-typename VdbGrid::Ptr makeVdbGrid(const SparseGrid<T>& grid, const std::string& name, bool zUp) {
-  auto vdb = VdbGrid::create(toVdb(grid.background));
-  for (auto& leaf : makeLeaves<typename VdbGrid::TreeType::LeafNodeType>(grid)) vdb->tree().addLeaf(leaf.release());
+Skeleton<VdbGrid> makeSkeleton(const SparseGrid<T>& grid, const std::vector<LeafMask>& masks) {
+  using Leaf = typename VdbGrid::TreeType::LeafNodeType;
+  Skeleton<VdbGrid> result{VdbGrid::create(toVdb(grid.background)), {}};
+  for (std::size_t n = 0; n < grid.bricks.size(); ++n) {
+    const Vec3i& corner = grid.bricks[n].corner;
+    auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), openvdb::Coord(corner.x, corner.y, corner.z),
+                                       toVdb(grid.background));
+    typename Leaf::NodeMaskType active;
+    for (int word = 0; word < brickSide; ++word) active.template getWord<std::uint64_t>(word) = masks[n][word];
+    leaf->setValueMask(active);
+    leaf->setTransientData(static_cast<openvdb::Index32>(n));
+    result.grid->tree().addLeaf(leaf.release());
+  }
+  result.order.reserve(grid.bricks.size());
+  for (auto leaf = result.grid->tree().cbeginLeaf(); leaf; ++leaf) result.order.push_back(leaf->transientData());
+  return result;
+}
+
+template <class T>
+void describe(openvdb::GridBase& vdb, const SparseGrid<T>& grid, const std::string& name, bool zUp) {
   auto transform = openvdb::math::Transform::createLinearTransform(grid.cellSize);
   transform->postTranslate({grid.origin.x, grid.origin.y, grid.origin.z});
   if (zUp) transform->postMult(yUpToZUp());
-  vdb->setTransform(transform);
-  vdb->setName(name);
-  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
-  vdb->insertMeta(sizeKey, openvdb::Vec3IMetadata({grid.size.x, grid.size.y, grid.size.z}));
-  return vdb;
+  vdb.setTransform(transform);
+  vdb.setName(name);
+  vdb.setGridClass(openvdb::GRID_FOG_VOLUME);
+  vdb.insertMeta(sizeKey, openvdb::Vec3IMetadata({grid.size.x, grid.size.y, grid.size.z}));
+  vdb.addStatsMetadata();
 }
 
-/// Writes with the grids' offsets, so that readers may pick one grid; the library offers that for files on disk alone,
-/// and its own file stream takes a full disk for success.
-class MemoryArchive : public openvdb::io::Archive {
- public:
-  void writeTo(std::ostream& out, const openvdb::GridCPtrVec& grids) const {
-    openvdb::io::Archive::write(out, grids, /*seekable=*/true);
-  }
+template <class T>
+void writeValue(std::ostream& out, T value) {
+  out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// What stands before a grid's leaves: all that the library writes itself.
+struct GridHead {
+  std::string bytes;
+  openvdb::io::GridDescriptor descriptor;
+  std::size_t offsets = 0;   ///< where in the bytes the descriptor's three offsets lie,
+  std::size_t contents = 0;  ///< and what they count: the grid's start
 };
 
-/// Bytes of a file of one grid.
+GridHead writeHead(const openvdb::GridBase& grid) {
+  constexpr std::uint32_t compression = openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK;
+  GridHead head{{}, {grid.getName(), grid.type()}};
+  std::ostringstream out(std::ios_base::binary);
+  openvdb::io::setDataCompression(out, compression);
+  head.descriptor.writeHeader(out);
+  head.offsets = static_cast<std::size_t>(out.tellp());
+  head.descriptor.writeStreamPos(out);
+  head.contents = static_cast<std::size_t>(out.tellp());
+  writeValue(out, compression);
+  grid.writeMeta(out);
+  grid.writeTransform(out);
+  grid.writeTopology(out);
+  head.bytes = std::move(out).str();
+  return head;
+}
+
+/// A grid of the file: the head, then the leaves.
+struct PackedGrid {
+  GridHead head;
+  std::vector<std::string> leaves;
+};
+
 template <class VdbGrid, class T>
-std::string fileOfOne(const SparseGrid<T>& grid, const std::string& name, bool zUp) {
-  std::string room;
-  room.reserve(grid.bricks.size() * sizeof(grid.bricks[0]) + (1 << 16));  // so that it need not grow
-  std::ostringstream out(std::move(room), std::ios_base::binary | std::ios_base::out);
-  MemoryArchive archive;
-  archive.setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
-  archive.writeTo(out, {makeVdbGrid<VdbGrid>(grid, name, zUp)});
-  return std::move(out).str();
+PackedGrid packGrid(const SparseGrid<T>& grid, const std::string& name, bool zUp) {
+  const std::vector<LeafMask> masks = activeMasks(grid);
+  const auto [vdb, order] = makeSkeleton<VdbGrid>(grid, masks);
+  describe(*vdb, grid, name, zUp);
+  return {writeHead(*vdb), packLeaves(grid, masks, order)};
 }
 
-std::string fileOfVelocity(const SparseGrid<Vec3f>& grid, const GasConventions& conventions) {
+PackedGrid packVelocity(const SparseGrid<Vec3f>& grid, const GasConventions& conventions) {
   const std::string& name = conventions.velocityName;
-  if (conventions.zUp) return fileOfOne<openvdb::Vec3SGrid>(turnedToZUp(grid), name, true);
-  return fileOfOne<openvdb::Vec3SGrid>(grid, name, false);
+  if (conventions.zUp) return packGrid<openvdb::Vec3SGrid>(turnedToZUp(grid), name, true);
+  return packGrid<openvdb::Vec3SGrid>(grid, name, false);
 }
 
-/// A file's beginning: magic number, versions, the flag that grids have offsets, the UUID; then what the file itself
-/// says (nothing) and the number of grids.
-struct FileStart {
-  static constexpr std::size_t uuid = sizeof(std::int64_t) + 3 * sizeof(std::uint32_t) + sizeof(char);
-  static constexpr std::size_t metadata = uuid + 36;
-  static constexpr std::size_t gridCount = metadata + sizeof(std::int32_t);
-  static constexpr std::size_t grids = gridCount + sizeof(std::int32_t);
+/// Fills in the offsets of a grid that begins at `place` of the file; returns where it ends.
+std::int64_t placeAt(PackedGrid& grid, std::int64_t place) {
+  GridHead& head = grid.head;
+  std::int64_t end = place + std::ssize(head.bytes);
+  head.descriptor.setGridPos(place + static_cast<std::int64_t>(head.contents));
+  head.descriptor.setBlockPos(end);
+  for (const std::string& leaves : grid.leaves) end += std::ssize(leaves);
+  head.descriptor.setEndPos(end);
+  std::ostringstream offsets(std::ios_base::binary);
+  head.descriptor.writeStreamPos(offsets);
+  head.bytes.replace(head.offsets, offsets.str().size(), offsets.str());
+  return end;
+}
+
+/// A file's beginning. The library writes a random UUID, behind magic number, versions and a flag; ours is the hash.
+class FileStart : public openvdb::io::Archive {
+ public:
+  std::string bytes(const std::string& hash, std::int32_t grids) const {
+    std::ostringstream out(std::ios_base::binary);
+    writeHeader(out, /*seekable=*/true);
+    openvdb::MetaMap().writeMeta(out);
+    writeValue(out, grids);
+    std::string start = std::move(out).str(), uuid = hash;
+    constexpr std::size_t place = sizeof(std::int64_t) + 3 * sizeof(std::uint32_t) + sizeof(char);
+    for (const std::size_t dash : {8, 13, 18, 23}) {
+      CHECK(start.size() > place + dash && start[place + dash] == '-', "no UUID in the header of the VDB");
+      uuid.insert(dash, "-");
+    }
+    return start.replace(place, uuid.size(), uuid);
+  }
 };
-
-template <class T>
-T readAt(const std::string& bytes, std::size_t place) {
-  CHECK(place + sizeof(T) <= bytes.size(), "a VDB of {} bytes ends before {}", bytes.size(), place);
-  T value;
-  std::memcpy(&value, bytes.data() + place, sizeof value);
-  return value;
-}
-template <class T>
-void writeAt(std::string& bytes, std::size_t place, T value) {
-  std::memcpy(bytes.data() + place, &value, sizeof value);
-}
-
-/// Where a grid's three offsets lie: behind its name, its type and its parent's name, each after its length.
-std::size_t offsetsOf(const std::string& bytes, std::size_t grid) {
-  constexpr int names = 3;
-  for (int n = 0; n < names; ++n) grid += sizeof(std::int32_t) + readAt<std::uint32_t>(bytes, grid);
-  return grid;
-}
-
-/// Appends the grid of a file of one; its offsets count from the start of the whole file.
-void appendGrid(std::string& whole, const std::string& one) {
-  CHECK(readAt<std::int32_t>(one, FileStart::metadata) == 0 && readAt<std::int32_t>(one, FileStart::gridCount) == 1,
-        "the library begins its files otherwise");
-  const std::size_t offsets = offsetsOf(one, FileStart::grids);
-  const auto moved = static_cast<std::int64_t>(whole.size()) - static_cast<std::int64_t>(FileStart::grids);
-  whole.append(one, FileStart::grids);
-  for (int n = 0; n < 3; ++n) {
-    const std::size_t place = offsets + n * sizeof(std::int64_t);
-    const auto offset = readAt<std::int64_t>(one, place);
-    CHECK(offset > 0 && offset <= static_cast<std::int64_t>(one.size()), "offset {} of a grid", offset);
-    writeAt(whole, place + static_cast<std::size_t>(moved), offset + moved);
-  }
-}
-
-/// A file of all the grids, in their order; takes the files' memory.
-std::string joinGrids(std::span<std::string> files) {
-  std::size_t size = 0;
-  for (const std::string& file : files) size += file.size();
-  std::string whole;
-  whole.reserve(size);
-  whole.append(files[0], 0, FileStart::grids);
-  writeAt(whole, FileStart::gridCount, static_cast<std::int32_t>(files.size()));
-  for (std::string& file : files) {
-    appendGrid(whole, file);
-    file = {};
-  }
-  return whole;
-}
-
-/// The library writes a random UUID.
-void replaceUuid(std::string& vdb, const std::string& hash) {
-  constexpr std::size_t dashes[] = {8, 13, 18, 23};
-  std::string uuid = hash;
-  for (const std::size_t dash : dashes) {
-    CHECK(vdb.size() > FileStart::uuid + dash && vdb[FileStart::uuid + dash] == '-',
-          "no UUID in the header of the VDB");
-    uuid.insert(dash, "-");
-  }
-  vdb.replace(FileStart::uuid, uuid.size(), uuid);
-}
 
 template <class T>
 void addGrid(ContentHash& hash, const SparseGrid<T>& grid, std::string_view name) {
@@ -281,8 +254,7 @@ std::string contentHash(const FrameGas& gas) {
 
 namespace {
 /// What the UUID is made of: the content and, where they are not ours, the conventions.
-std::string nameOf(const FrameGas& gas, const GasConventions& conventions) {
-  const std::string content = contentHash(gas);
+std::string nameOf(const std::string& content, const GasConventions& conventions) {
   if (conventions == GasConventions{}) return content;
   ContentHash hash;
   hash.add(fmt::format("{} {} {}", content, conventions.velocityName, conventions.zUp));
@@ -290,29 +262,39 @@ std::string nameOf(const FrameGas& gas, const GasConventions& conventions) {
 }
 }  // namespace
 
-std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions) {
+PackedGas packGas(const FrameGas& gas, const GasConventions& conventions) {
   openvdb::initialize();
   const bool zUp = conventions.zUp;
-  std::array<std::string, 4> files;
-  std::string hash;
-  // Compressing takes most of the time, and the velocity is half of the work: it starts first.
-  const std::function<void()> work[] = {
-      [&] { files[3] = fileOfVelocity(gas.velocity, conventions); },
-      [&] { files[0] = fileOfOne<openvdb::FloatGrid>(gas.density, "density", zUp); },
-      [&] { files[1] = fileOfOne<openvdb::FloatGrid>(gas.temperature, "temperature", zUp); },
-      [&] { files[2] = fileOfOne<openvdb::FloatGrid>(gas.flame, "flame", zUp); },
-      [&] { hash = nameOf(gas, conventions); },
-  };
-  parallelFor(0, std::ssize(work), 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t n = first; n < last; ++n) work[n]();
-  });
-  std::string bytes = joinGrids(files);
-  replaceUuid(bytes, hash);
+  std::array<PackedGrid, 4> grids{packGrid<openvdb::FloatGrid>(gas.density, "density", zUp),
+                                  packGrid<openvdb::FloatGrid>(gas.temperature, "temperature", zUp),
+                                  packGrid<openvdb::FloatGrid>(gas.flame, "flame", zUp),
+                                  packVelocity(gas.velocity, conventions)};
+  PackedGas packed{{}, contentHash(gas)};
+  packed.pieces.push_back(FileStart().bytes(nameOf(packed.content, conventions), std::ssize(grids)));
+  std::int64_t end = std::ssize(packed.pieces[0]);
+  for (PackedGrid& grid : grids) {
+    end = placeAt(grid, end);
+    packed.pieces.push_back(std::move(grid.head.bytes));
+    std::move(grid.leaves.begin(), grid.leaves.end(), std::back_inserter(packed.pieces));
+  }
+  return packed;
+}
+
+std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions) {
+  const PackedGas packed = packGas(gas, conventions);
+  std::string bytes;
+  std::size_t size = 0;
+  for (const std::string& piece : packed.pieces) size += piece.size();
+  bytes.reserve(size);
+  for (const std::string& piece : packed.pieces) bytes += piece;
   return bytes;
 }
 
 FileRecord writeGas(const std::filesystem::path& path, const FrameGas& gas) {
-  return writeDurably(path, gasToVdb(gas));
+  const PackedGas packed = packGas(gas);
+  return writeDurably(path, [&](std::ostream& out) {
+    for (const std::string& piece : packed.pieces) out << piece;
+  });
 }
 
 FrameGas gasFromVdb(const std::string& bytes, const std::string& fileName) {

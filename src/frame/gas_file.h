@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/durable_file.h"
 #include "frame/frame.h"
@@ -15,6 +16,13 @@ struct GasConventions {
   bool zUp = false;  ///< (x, y, z) lies and points at (x, -z, y)
   friend bool operator==(const GasConventions&, const GasConventions&) = default;
 };
+
+/// A VDB file in pieces, one after the other, and the hash of what it means.
+struct PackedGas {
+  std::vector<std::string> pieces;
+  std::string content;  ///< contentHash of the gas
+};
+PackedGas packGas(const FrameGas& gas, const GasConventions& conventions = {});
 
 /// The bytes of a VDB file that `openvdb::io::File` opens, with a UUID made from the content: equal gas, equal bytes.
 std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions = {});

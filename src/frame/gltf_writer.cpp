@@ -57,6 +57,15 @@ void GlbWriter::addMesh(const TriangleMesh& mesh, const FrameBody& body) {
   meshes_.push_back(std::move(entry));
 }
 
+void GlbWriter::addShapes(int node, const std::vector<std::vector<Vec3f>>& displacements) {
+  Json& mesh = meshes_.at(nodes_.at(node).at("mesh").get<int>());
+  Json targets = Json::array();
+  for (const std::vector<Vec3f>& displacement : displacements)
+    targets.push_back({{"POSITION", addPositions(displacement)}});
+  for (Json& primitive : mesh["primitives"]) primitive["targets"] = targets;
+  mesh["weights"] = std::vector<int>(displacements.size(), 0);
+}
+
 Json GlbWriter::addAttributes(const TriangleMesh& mesh) {
   std::vector<Vec3f> positions, normals;
   std::vector<Vec2<float>> uvs;

@@ -33,6 +33,8 @@ class GlbWriter {
         {{"bufferView", view}, {"componentType", componentType}, {"count", values.size()}, {"type", type}});
     return static_cast<int>(accessors_.size()) - 1;
   }
+  /// Shapes that the mesh of a node may take (glTF 2.0, 3.7.2.2): how far its vertices lie from where they are.
+  void addShapes(int node, const std::vector<std::vector<Vec3f>>& displacements);
   Json& accessor(int number) { return accessors_.at(number); }
   void addAnimation(Json animation) { animations_.push_back(std::move(animation)); }
 

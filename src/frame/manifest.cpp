@@ -37,7 +37,8 @@ FrameFileNames::FrameFileNames(int index)
     : gas(frameFile("gas", "gas", index, "vdb")),
       bodies(frameFile("bodies", "bodies", index, "json")),
       particles(frameFile("particles", "particles", index, "ply")),
-      report(frameFile("reports", "report", index, "json")) {}
+      report(frameFile("reports", "report", index, "json")),
+      shapes(frameFile("bodies", "shapes", index, "glb")) {}
 
 std::string frameFile(const std::string& folder, const std::string& stem, int index, const std::string& extension) {
   return fmt::format("{}/{}.{:04}.{}", folder, stem, index, extension);
@@ -89,13 +90,10 @@ namespace {
 struct NumberedFiles {
   std::string_view lead, extension;
 };
-constexpr NumberedFiles numberedFiles[] = {{"gas/gas.", ".vdb"},
-                                           {"reports/report.", ".json"},
-                                           {"bodies/bodies.", ".json"},
-                                           {"particles/particles.", ".ply"},
-                                           {"images/frame.", ".png"},
-                                           {"images/frame.", ".exr"},
-                                           {"checkpoints/checkpoint.", ".bin"}};
+constexpr NumberedFiles numberedFiles[] = {
+    {"gas/gas.", ".vdb"},       {"reports/report.", ".json"},       {"bodies/bodies.", ".json"},
+    {"bodies/shapes.", ".glb"}, {"particles/particles.", ".ply"},   {"images/frame.", ".png"},
+    {"images/frame.", ".exr"},  {"checkpoints/checkpoint.", ".bin"}};
 constexpr std::string_view singleFiles[] = {"scene.toml", "run.json", manifestName,
                                             "pieces.glb", "film.mp4", "bodies/animation.glb"};
 

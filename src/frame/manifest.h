@@ -12,10 +12,10 @@ namespace brisance {
 
 constexpr char manifestName[] = "manifest.json";
 
-/// The four files of a frame, by what they hold.
+/// The four files of a frame, by what they hold; and the shapes of bodies that took another one in it.
 struct FrameFileNames {
   explicit FrameFileNames(int index);
-  std::string gas, bodies, particles, report;
+  std::string gas, bodies, particles, report, shapes;
   std::vector<std::string> all() const { return {gas, bodies, particles, report}; }
 };
 

@@ -1,7 +1,5 @@
 #include "frame/particle_volume.h"
 
-#include <sys/mman.h>
-
 #include <cmath>
 
 #include "base/parallel.h"
@@ -80,16 +78,12 @@ CellBox reachedCells(const Binned<Point>& points, int radius, const Vec3i& volum
   return {lower, min(volumeSize - Vec3i(1, 1, 1), bounds.upper + rim) - lower + Vec3i(1, 1, 1)};
 }
 
-/// Sets the number of values; fresh memory is asked for in large pages, whose first touch is many times cheaper.
+/// Sets the number of values without copying those there are.
 template <class T>
-void resizeForOverwriting(std::vector<T>& values, std::size_t count) {
+void resizeForOverwriting(AlignedVector<T>& values, std::size_t count) {
   if (count > values.capacity()) {
     values = {};
     values.reserve(count);
-    constexpr std::uintptr_t page = 1 << 21;  // bytes
-    const auto start = (reinterpret_cast<std::uintptr_t>(values.data()) + page - 1) / page * page;
-    const auto end = reinterpret_cast<std::uintptr_t>(values.data() + values.capacity()) / page * page;
-    if (end > start) ::madvise(reinterpret_cast<void*>(start), end - start, MADV_HUGEPAGE);  // only a hint
   }
   values.resize(count);
 }

@@ -61,16 +61,24 @@ void addMissingOfFrames(const Manifest& manifest, std::vector<std::string>& prob
       if (!manifest.contains(name)) problems.push_back(fmt::format("{}: is missing in the manifest", name));
 }
 
+std::string shapeFileOf(int frame) { return frame > 0 ? FrameFileNames(frame).shapes : "pieces.glb"; }
+
 }  // namespace
 
-/// The pieces at rest by name, read when the first body wants one.
-struct RunReader::AtRest {
+/// The bodies of a file by name, read when the first wants one.
+struct RunReader::Shapes {
   std::once_flag read;
-  std::map<std::string, FrameBody> pieces;
+  std::map<std::string, FrameBody> bodies;
+};
+
+/// Shapes at rest under 0, others under the frame in which bodies took them; those last asked for.
+struct RunReader::ShapeFiles {
+  std::mutex guard;
+  std::map<int, std::shared_ptr<Shapes>> byFrame;
 };
 
 RunReader::RunReader(const fs::path& run)
-    : run_(run), manifest_(readManifest(run)), atRest_(std::make_unique<AtRest>()) {}
+    : run_(run), manifest_(readManifest(run)), shapeFiles_(std::make_unique<ShapeFiles>()) {}
 RunReader::~RunReader() = default;
 
 int RunReader::lastFrame() const { return lastWholeFrame(manifest_); }
@@ -92,20 +100,41 @@ std::string RunReader::bytes(const std::string& name) const {
   return bytes;
 }
 
-/// Meshes, materials and whether they move, from the pieces at rest; by name, since scenery and pieces may come and go.
+/// The shapes that bodies took in a frame, or have at rest; keeps those of a few frames.
+std::shared_ptr<const RunReader::Shapes> RunReader::shapesOf(int frame) const {
+  constexpr std::size_t fewFrames = 8;
+  std::shared_ptr<Shapes> shapes;
+  {
+    const std::lock_guard lock(shapeFiles_->guard);
+    auto& byFrame = shapeFiles_->byFrame;
+    if (byFrame.size() > fewFrames && !byFrame.contains(frame))
+      std::erase_if(byFrame, [](const auto& item) { return item.first > 0; });
+    auto& slot = byFrame[frame];
+    if (!slot) slot = std::make_shared<Shapes>();
+    shapes = slot;
+  }
+  std::call_once(shapes->read, [&] {
+    const std::string name = shapeFileOf(frame);
+    for (FrameBody& body : piecesFromGlb(bytes(name), (run_ / name).string()))
+      shapes->bodies.emplace(body.name, std::move(body));
+  });
+  return shapes;
+}
+
+/// Meshes, materials and whether they move, from the pieces at rest or the shapes that they took later; by name, since
+/// scenery and pieces may come and go.
 void RunReader::readBodies(int index, Frame& frame) const {
   requireFrame(index);
-  const std::string name = FrameFileNames(index).bodies, rest = (run_ / "pieces.glb").string();
+  const std::string name = FrameFileNames(index).bodies;
   bodiesFromJson(bytes(name), (run_ / name).string(), frame);
-  if (frame.bodies.empty()) return;
-  std::call_once(atRest_->read, [&] {
-    for (FrameBody& body : piecesFromGlb(bytes("pieces.glb"), rest))
-      atRest_->pieces.emplace(body.name, std::move(body));
-  });
+  std::map<int, std::shared_ptr<const Shapes>> used;
   for (FrameBody& body : frame.bodies) {
-    const auto found = atRest_->pieces.find(body.name);
-    if (found == atRest_->pieces.end())
-      throw DamagedFile(fmt::format("{}: has no piece named '{}'; simulate again", rest, body.name));
+    auto& shapes = used[body.shapeFrame];
+    if (!shapes) shapes = shapesOf(body.shapeFrame);
+    const auto found = shapes->bodies.find(body.name);
+    if (found == shapes->bodies.end())
+      throw DamagedFile(fmt::format("{}: has no piece named '{}'; simulate again",
+                                    (run_ / shapeFileOf(body.shapeFrame)).string(), body.name));
     body.mesh = found->second.mesh;
     body.material = found->second.material;
     body.moves = found->second.moves;

@@ -3,8 +3,10 @@
 #include <system_error>
 
 #include "base/check.h"
+#include "base/durable_batch.h"
 #include "frame/body_file.h"
 #include "frame/gas_file.h"
+#include "frame/gltf_export.h"
 #include "frame/manifest.h"
 #include "frame/particle_file.h"
 
@@ -96,6 +98,14 @@ void removeEmptyFolders(const fs::path& run) {
   }
 }
 
+/// Bodies that took another shape in this frame.
+std::vector<FrameBody> reshapedIn(const Frame& frame) {
+  std::vector<FrameBody> bodies;
+  for (const FrameBody& body : frame.bodies)
+    if (body.shapeFrame == frame.index) bodies.push_back(body);
+  return bodies;
+}
+
 bool hasRecordedSize(const fs::path& path, const ManifestEntry& entry) {
   std::error_code error;
   return fs::file_size(path, error) == entry.file.size && !error;
@@ -138,15 +148,29 @@ void RunDirectory::continueOldRun() {
 
 void RunDirectory::writeManifest() { writeDurably(path_ / manifestName, manifestToJson(manifest_)); }
 
-FileRecord RunDirectory::writeFile(const std::string& name, const std::string& bytes) {
+/// Of a file that is to be written; its folder is there.
+fs::path RunDirectory::placeOf(const std::string& name) const {
   CHECK(isNameInRun(name), "{}", name);
   const fs::path path = path_ / name;
   makeDirectories(path.parent_path());
-  return writeDurably(path, bytes);
+  return path;
 }
 
 void RunDirectory::add(const std::string& name, const std::string& bytes, const std::string& content) {
-  record({{name, {writeFile(name, bytes), content}}});
+  record({{name, {writeDurably(placeOf(name), bytes), content}}});
+}
+
+void RunDirectory::add(const std::vector<NewFile>& files) {
+  DurableBatch batch;
+  std::map<std::string, ManifestEntry> entries;
+  for (const NewFile& file : files) {
+    const auto write = [&](std::ostream& out) {
+      for (const std::string& piece : file.pieces) out << piece;
+    };
+    entries[file.name] = {batch.add(placeOf(file.name), write), file.content};
+  }
+  batch.finish();
+  record(entries);
 }
 
 void RunDirectory::record(const std::map<std::string, ManifestEntry>& entries) {
@@ -166,15 +190,6 @@ void RunDirectory::remove(const std::vector<std::string>& names) {
   deleteFiles(path_, names);
 }
 
-void RunDirectory::addFrame(const Frame& frame) {
-  const FrameFileNames names(frame.index);
-  record(
-      {{names.gas, {writeFile(names.gas, gasToVdb(frame.gas)), contentHash(frame.gas)}},
-       {names.bodies, {writeFile(names.bodies, bodiesToJson(frame)), contentHash(frame.bodies)}},
-       {names.particles, {writeFile(names.particles, particlesToPly(frame.particles)), contentHash(frame.particles)}},
-       {names.report, {writeFile(names.report, reportToJson(frame)), ""}}});
-}
-
 std::string RunDirectory::addInput(const fs::path& source) {
   const std::string bytes = readFile(source);
   ContentHash hash;
@@ -182,6 +197,18 @@ std::string RunDirectory::addInput(const fs::path& source) {
   const std::string name = "inputs/" + hash.hex() + source.extension().string();
   if (!manifest_.contains(name)) add(name, bytes);
   return name;
+}
+
+std::vector<NewFile> filesOf(const Frame& frame) {
+  const FrameFileNames names(frame.index);
+  PackedGas gas = packGas(frame.gas);
+  std::vector<NewFile> files{{names.gas, std::move(gas.pieces), std::move(gas.content)},
+                             {names.bodies, {bodiesToJson(frame)}, contentHash(frame.bodies)},
+                             {names.particles, {particlesToPly(frame.particles)}, contentHash(frame.particles)},
+                             {names.report, {reportToJson(frame)}, ""}};
+  const std::vector<FrameBody> reshaped = reshapedIn(frame);
+  if (!reshaped.empty()) files.push_back({names.shapes, {piecesToGlb(reshaped)}, ""});
+  return files;
 }
 
 int RunDirectory::lastFrame() const { return lastWholeFrame(manifest_); }

@@ -19,6 +19,16 @@ struct ManifestEntry {
       content;  ///< hash of what the file means (grid values, poses, particles, pixels); empty where bytes say it all
 };
 
+/// A file of a run that is yet to be written.
+struct NewFile {
+  std::string name;                 ///< in the run
+  std::vector<std::string> pieces;  ///< its bytes, one piece after the other
+  std::string content;              ///< as in ManifestEntry
+};
+
+/// gas, bodies, particles and report of a frame, and the shapes that bodies took in it.
+std::vector<NewFile> filesOf(const Frame& frame);
+
 /// A run directory being written or read. Paths in the manifest are relative, with '/'.
 class RunDirectory {
  public:
@@ -42,8 +52,9 @@ class RunDirectory {
   /// Forgets and deletes.
   void remove(const std::vector<std::string>& names);
 
-  /// gas, bodies, particles and report of a frame, then one manifest with all of them.
-  void addFrame(const Frame& frame);
+  /// Several files, made durable together, then one manifest with all of them.
+  void add(const std::vector<NewFile>& files);
+  void addFrame(const Frame& frame) { add(filesOf(frame)); }
   /// Copies of a file as inputs/HASH.EXT; returns that relative name.
   std::string addInput(const std::filesystem::path& source);
 
@@ -54,7 +65,7 @@ class RunDirectory {
   void writeManifest();
   void replaceOldRun();
   void continueOldRun();
-  FileRecord writeFile(const std::string& name, const std::string& bytes);
+  std::filesystem::path placeOf(const std::string& name) const;
   std::filesystem::path path_;
   std::unique_ptr<DirectoryLock> lock_;
   std::map<std::string, ManifestEntry> manifest_;
@@ -80,16 +91,19 @@ class RunReader {
   int lastFrame() const;
   /// Throws InputError for a frame that is not there, naming those that are.
   void requireFrame(int index) const;
-  /// Fills index, time and bodies, these with meshes and materials from pieces.glb. May be called from several threads.
+  /// Fills index, time and bodies, these with meshes and materials from pieces.glb and
+  /// bodies/shapes.*.glb. May be called from several threads.
   void readBodies(int index, Frame& frame) const;
   /// The bytes of a file. Throws DamagedFile.
   std::string bytes(const std::string& name) const;
 
  private:
-  struct AtRest;
+  struct Shapes;
+  struct ShapeFiles;
+  std::shared_ptr<const Shapes> shapesOf(int frame) const;
   std::filesystem::path run_;
   std::map<std::string, ManifestEntry> manifest_;
-  std::unique_ptr<AtRest> atRest_;
+  std::unique_ptr<ShapeFiles> shapeFiles_;
 };
 
 /// A frame as it was written, its files' hashes checked against the manifest before a parser sees them. The gas is read

@@ -1,5 +1,6 @@
 #include "frame/run_motion.h"
 
+#include <algorithm>
 #include <map>
 
 #include "base/parallel.h"
@@ -22,7 +23,11 @@ RunMotion readMotion(const std::filesystem::path& run, const std::vector<int>& f
       if (isNew) motion.bodies.push_back({body, {}, {}});
       motion.bodies[place->second].frames.push_back(frames[n]);
       motion.bodies[place->second].poses.push_back(body.pose);
+      motion.bodies[place->second].shapes.push_back(body.mesh);
     }
+  for (BodyMotion& body : motion.bodies)
+    if (std::all_of(body.shapes.begin(), body.shapes.end(), [&](const auto& mesh) { return mesh == body.body.mesh; }))
+      body.shapes.clear();
   return motion;
 }
 

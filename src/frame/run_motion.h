@@ -13,6 +13,8 @@ struct BodyMotion {
   FrameBody body;           ///< as in the first of them
   std::vector<int> frames;  ///< ascending
   std::vector<Pose> poses;  ///< one for each
+  std::vector<std::shared_ptr<const TriangleMesh>>
+      shapes{};  ///< one for each, of the same triangles; none if it keeps its own
 };
 
 struct RunMotion {

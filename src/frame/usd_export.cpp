@@ -55,14 +55,34 @@ void writePoses(Writer& out, const BodyMotion& motion) {
 
 std::string extent(const Box3& box) { return usd::list(std::vector{Vec3f(box.lower), Vec3f(box.upper)}); }
 
-void writeCorners(Writer& out, const TriangleMesh& mesh) {
-  std::vector<Vec3f> points, normals;
+std::vector<Vec3f> pointsOf(const TriangleMesh& mesh) { return {mesh.vertices.begin(), mesh.vertices.end()}; }
+
+/// A mesh that changes its shape: its points at the frames in which it does.
+void writeShapes(Writer& out, const BodyMotion& motion) {
+  std::vector<std::size_t> changes;
+  for (std::size_t n = 0; n < motion.shapes.size(); ++n)
+    if (n == 0 || motion.shapes[n] != motion.shapes[n - 1]) changes.push_back(n);
+  out.begin("float3[] extent.timeSamples = {{");
+  for (const std::size_t n : changes) out.line("{}: {},", motion.frames[n], extent(bounds(*motion.shapes[n])));
+  out.close();
+  out.begin("point3f[] points.timeSamples = {{");
+  for (const std::size_t n : changes) out.line("{}: {},", motion.frames[n], usd::list(pointsOf(*motion.shapes[n])));
+  out.close();
+}
+
+void writeCorners(Writer& out, const BodyMotion& motion) {
+  const TriangleMesh& mesh = *motion.body.mesh;
+  std::vector<Vec3f> normals;
   std::vector<Vec2<float>> uvs;
-  for (const Vec3d& v : mesh.vertices) points.emplace_back(v);
   for (const Vec3d& n : mesh.normals) normals.emplace_back(n);
   for (const Vec2d& uv : mesh.uvs) uvs.push_back({static_cast<float>(uv.x), static_cast<float>(uv.y)});
-  out.line("float3[] extent = {}", extent(bounds(mesh)));
-  out.line("point3f[] points = {}", usd::list(points));
+  if (motion.shapes.empty()) {
+    out.line("float3[] extent = {}", extent(bounds(mesh)));
+    out.line("point3f[] points = {}", usd::list(pointsOf(mesh)));
+  } else {
+    writeShapes(out, motion);
+    normals.clear();  // those of one shape
+  }
   if (!normals.empty()) {
     out.line("normal3f[] normals = {} (", usd::list(normals));
     out.line("    interpolation = \"vertex\"");
@@ -102,11 +122,12 @@ void writeSubsets(Writer& out, const FrameBody& body, usd::Materials& materials)
   }
 }
 
-void writeMesh(Writer& out, const FrameBody& body, usd::Materials& materials) {
+void writeMesh(Writer& out, const BodyMotion& motion, usd::Materials& materials) {
+  const FrameBody& body = motion.body;
   out.line("def Mesh \"mesh\" (");
   out.line("    prepend apiSchemas = [\"MaterialBindingAPI\"]");
   out.open(")");
-  writeCorners(out, *body.mesh);
+  writeCorners(out, motion);
   writeTriangles(out, *body.mesh);
   out.line("uniform bool doubleSided = 1");  // shells have an inside that is seen
   out.line("uniform token subdivisionScheme = \"none\"");
@@ -125,7 +146,7 @@ void writeBodies(Writer& out, const RunMotion& motion, usd::Materials& materials
     out.line("    customData = {{ string name = {} }}", inQuotes(moving.body.name));
     out.open(")");
     writePoses(out, moving);
-    if (moving.body.mesh && !moving.body.mesh->triangles.empty()) writeMesh(out, moving.body, materials);
+    if (moving.body.mesh && !moving.body.mesh->triangles.empty()) writeMesh(out, moving, materials);
     out.close();
   }
   out.close();

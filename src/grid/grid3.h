@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/aligned.h"
 #include "base/check.h"
 #include "base/math.h"
 
@@ -16,7 +16,7 @@ struct Grid3 {
   Vec3i size;
   Vec3d origin;         ///< [m] of sample (0, 0, 0)
   double cellSize = 1;  ///< [m]
-  std::vector<T> values;
+  AlignedVector<T> values;
 
   Grid3() = default;
   Grid3(const Vec3i& size_, const Vec3d& origin_, double cellSize_, T value = T{})

@@ -23,6 +23,9 @@ struct TriangleMesh {
 };
 
 Box3 bounds(const TriangleMesh& mesh);
+/// Unit normals of the vertices, weighted by the area of the faces around them (Algorithm 8 in one pass over the
+/// faces).
+std::vector<Vec3d> vertexNormals(const TriangleMesh& mesh);
 /// Every vertex moved by -offset.
 void recenter(TriangleMesh& mesh, const Vec3d& offset);
 

@@ -33,8 +33,9 @@ inline double logRatio(double x) {
 }
 
 /// The place that `from` reaches on its way to `to`, one axis after the other, stopping short of closed faces:
-/// particles slide along walls. False when it leaves the box.
-bool moveThrough(const MacVelocity& openShare, const Vec3d& from, const Vec3d& to, Vec3d& reached) {
+/// particles slide along walls; beyond periodic faces they go on from the opposite ones. False when it leaves the box.
+bool moveThrough(const GasAround& gas, const Vec3d& from, const Vec3d& to, Vec3d& reached) {
+  const MacVelocity& openShare = gas.openShare;
   const Vec3i cells = openShare.cells();
   const double h = openShare.u.cellSize;
   const Vec3d corner = openShare.u.origin - Vec3d(0, .5, .5) * h;
@@ -56,7 +57,11 @@ bool moveThrough(const MacVelocity& openShare, const Vec3d& from, const Vec3d& t
         break;
       }
       cell[axis] += forward ? 1 : -1;
-      if (cell[axis] < 0 || cell[axis] >= cells[axis]) return false;
+      if (cell[axis] >= 0 && cell[axis] < cells[axis]) continue;
+      if (!gas.periodic[axis]) return false;
+      const int period = forward ? -cells[axis] : cells[axis];
+      cell[axis] += period;
+      end += period;
     }
     p[axis] = end;
   }
@@ -162,7 +167,7 @@ class BlockStep {
   bool move(std::int64_t at, int n) {
     p_.velocity[at] = {block_.velocity[0][n], block_.velocity[1][n], block_.velocity[2][n]};
     const Vec3d goal = p_.position[at] + Vec3d(block_.moved[0][n], block_.moved[1][n], block_.moved[2][n]);
-    if (!block_.sameCell[n]) return moveThrough(gas_.openShare, p_.position[at], goal, p_.position[at]);
+    if (!block_.sameCell[n]) return moveThrough(gas_, p_.position[at], goal, p_.position[at]);
     p_.position[at] = goal;
     return true;
   }

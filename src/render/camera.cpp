@@ -73,6 +73,7 @@ Vec2d Camera::pixel(const Vec3d& place) const {
 
 CameraWay Camera::way(double x, double y, const Vec2<float>& lens) const {
   const Vec3d ahead = upperLeft_ + right_ * x + down_ * y;  // 1 along the view
+  if (lensRight_ == Vec3d{}) return {position_, normalized(ahead)};
   const double radius = std::sqrt(static_cast<double>(lens.x)), around = 2 * pi * lens.y;
   const Vec3d aside = lensRight_ * (radius * std::cos(around)) + lensUp_ * (radius * std::sin(around));
   return {position_ + aside, normalized(ahead - aside / focusDistance_)};

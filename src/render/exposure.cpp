@@ -9,6 +9,9 @@ namespace {
 
 constexpr int tileSize = 16;  // [pixels]: small enough that two threads end together
 
+constexpr int blockSize = 4;  // [pixels]: their rays go together
+static_assert(blockSize * blockSize == SceneGeometry::packet);
+
 /// The samples of one pixel, summed up.
 class PixelSums {
  public:
@@ -39,49 +42,64 @@ class PixelSums {
   std::array<float, 2> weightOfHalf_{};
 };
 
-class Exposure {
- public:
-  Exposure(const CameraRays& rays, const Follow& follow, Noise noise, Exposed& exposed)
-      : rays_(rays), follow_(follow), noise_(noise), exposed_(exposed) {}
+/// Some pixels, and a packet of rays of theirs.
+struct PixelBlock {
+  std::vector<std::array<int, 2>> pixels;
+  std::vector<CameraRay> rays;
+  std::array<Vec3f, SceneGeometry::packet> light;
+  std::array<PixelSums, SceneGeometry::packet> sums;
 
-  void draw(int x, int y) const { noise_ == Noise::ignored ? drawMean(x, y) : drawAll(x, y); }
-
- private:
-  Vec3f light(int x, int y, int s) const {
-    CameraRay sample = rays_.ray(x, y, s);
-    return follow_(sample.ray, sample.phase, sample.numbers);
+  PixelBlock() {
+    pixels.reserve(SceneGeometry::packet);
+    rays.reserve(SceneGeometry::packet);
   }
-  void drawMean(int x, int y) const {
-    Vec3f sum;
-    for (int s = 0; s < rays_.perPixel(); ++s) sum += light(x, y, s) * rays_.weight(s);
-    exposed_.mean(x, y) = sum;
+  void cover(int left, int top, int right, int bottom) {
+    pixels.clear();
+    for (int y = top; y < bottom; ++y)
+      for (int x = left; x < right; ++x) pixels.push_back({x, y});
   }
-  void drawAll(int x, int y) const {
-    PixelSums sums;
-    for (int s = 0; s < rays_.perPixel(); ++s) sums.add(light(x, y, s), rays_.weight(s), rays_.field(s));
-    exposed_.mean(x, y) = sums.mean();
-    exposed_.variance(x, y) = sums.variance(rays_.perPixel());
-    for (int half = 0; half < 2; ++half) exposed_.halves[half](x, y) = sums.half(half);
-  }
-
-  const CameraRays& rays_;
-  const Follow& follow_;
-  Noise noise_;
-  Exposed& exposed_;
 };
+
+void keep(const PixelBlock& block, int samples, Noise noise, Exposed& exposed) {
+  for (std::size_t n = 0; n < block.pixels.size(); ++n) {
+    const auto [x, y] = block.pixels[n];
+    const PixelSums& sums = block.sums[n];
+    exposed.mean(x, y) = sums.mean();
+    if (noise == Noise::ignored) continue;
+    exposed.variance(x, y) = sums.variance(samples);
+    for (int half = 0; half < 2; ++half) exposed.halves[half](x, y) = sums.half(half);
+  }
+}
+
+/// One sample of each pixel after the other.
+void draw(PixelBlock& block, const CameraRays& rays, const Follow& follow, Noise noise, Exposed& exposed) {
+  block.sums.fill({});
+  for (int s = 0; s < rays.perPixel(); ++s) {
+    block.rays.clear();
+    for (const auto& [x, y] : block.pixels) block.rays.push_back(rays.ray(x, y, s));
+    follow(block.rays, std::span(block.light).first(block.rays.size()));
+    for (std::size_t n = 0; n < block.pixels.size(); ++n)
+      block.sums[n].add(block.light[n], rays.weight(s), rays.field(s));
+  }
+  keep(block, rays.perPixel(), noise, exposed);
+}
 
 }  // namespace
 
 Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise) {
   Exposed exposed{Image(width, height), {}, {}};
   if (noise == Noise::measured) exposed.variance = exposed.halves[0] = exposed.halves[1] = Image(width, height);
-  const Exposure exposure(rays, follow, noise, exposed);
   const int columns = (width + tileSize - 1) / tileSize, rows = (height + tileSize - 1) / tileSize;
   parallelFor(0, static_cast<std::int64_t>(columns) * rows, 1, [&](std::int64_t first, std::int64_t last) {
+    PixelBlock block;
     for (std::int64_t tile = first; tile < last; ++tile) {
       const int left = static_cast<int>(tile % columns) * tileSize, top = static_cast<int>(tile / columns) * tileSize;
-      for (int y = top; y < std::min(top + tileSize, height); ++y)
-        for (int x = left; x < std::min(left + tileSize, width); ++x) exposure.draw(x, y);
+      const int right = std::min(left + tileSize, width), bottom = std::min(top + tileSize, height);
+      for (int y = top; y < bottom; y += blockSize)
+        for (int x = left; x < right; x += blockSize) {
+          block.cover(x, y, std::min(x + blockSize, right), std::min(y + blockSize, bottom));
+          draw(block, rays, follow, noise, exposed);
+        }
     }
   });
   return exposed;

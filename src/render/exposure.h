@@ -3,14 +3,15 @@
 
 #include <array>
 #include <functional>
+#include <span>
 
 #include "render/camera_rays.h"
 #include "render/image.h"
 
 namespace brisance {
 
-/// An integrator: light along a ray.
-using Follow = std::function<Vec3f(const Ray&, float phase, SampleSequence&)>;
+/// An integrator: the light along each ray of a packet.
+using Follow = std::function<void(std::span<CameraRay> rays, std::span<Vec3f> light)>;
 
 /// A picture and its noise.
 struct Exposed {
@@ -20,7 +21,8 @@ struct Exposed {
 };
 
 enum class Noise { ignored, measured };
-/// Of the picture alone when the noise is `ignored`; that picture is the same in both cases.
+/// Of the picture alone when the noise is `ignored`; that picture is the same in both cases. The same bits for any number of
+/// threads.
 Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise);
 
 }  // namespace brisance

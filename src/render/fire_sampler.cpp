@@ -62,16 +62,16 @@ FireSample FireSampler::sample(const Vec2<float>& choice, const Vec2<float>& acr
   const Block& block = blocks_[entryOf(upTo_, choice.x)];
   const auto cell = static_cast<int>(entryOf(block.upTo, choice.y));
   const Vec3f place = Vec3f(cornerOf(block, cell)) + Vec3f(across.x, across.y, along);
-  return {gas_.placeOf(place), gas_.emissionAtCell(place), density(block.block, place)};
+  return {gas_.placeOf(place), gas_.emissionAtCell(place), density(static_cast<std::int32_t>(numbers_.index(block.block.x, block.block.y, block.block.z)), place)};
 }
 
-float FireSampler::density(const Vec3i& block, const Vec3f& place) const {
-  const int number = numbers_(block.x, block.y, block.z);
+float FireSampler::density(std::int32_t block, const Vec3f& place) const {
+  const int number = numbers_.values[block];
   if (number < 0 || std::min({place.x, place.y, place.z}) < 0) return 0;
-  const auto along = [&](int axis) {
-    return std::clamp(static_cast<int>(place[axis]) - side * block[axis], 0, side - 1);
-  };
   const Block& found = blocks_[number];
+  const auto along = [&](int axis) {
+    return std::clamp(static_cast<int>(place[axis]) - side * found.block[axis], 0, side - 1);
+  };
   const float size = gas_.cellSize();
   return found.share * found.cellShare(along(0) + side * (along(1) + side * along(2))) / (size * size * size);
 }

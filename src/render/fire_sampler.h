@@ -23,8 +23,9 @@ class FireSampler {
   bool isDark() const { return upTo_.empty(); }
   /// `choice` of the block and of the cell, `across` and `along` of the place. Not to be called where it is dark.
   FireSample sample(const Vec2<float>& choice, const Vec2<float>& across, float along) const;
-  /// With which density [1/m3] sample() draws a place [cells] of a block. Beyond the outermost samples none is drawn.
-  float density(const Vec3i& block, const Vec3f& place) const;
+  /// With which density [1/m3] sample() draws a place [cells] of a block, by its number.
+  /// Beyond the outermost samples none is drawn.
+  float density(std::int32_t block, const Vec3f& place) const;
 
  private:
   static constexpr int side = GasMedium::blockCells, cellsOfBlock = side * side * side;

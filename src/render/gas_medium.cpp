@@ -10,8 +10,6 @@
 namespace brisance {
 namespace {
 
-/// The share of the density range over which min_d fades in.
-constexpr float fadeInShare = 0.01f;
 /// Samples one and a half deviations of the blur apart: the sum over samples of a Gaussian is then its integral to
 /// 2 exp(-2 pi^2 / 1.5^2), 0.03 % (Poisson summation), and a pixel's ways, whose phases differ, share even that out.
 constexpr double stepPerBlur = 1.5;
@@ -56,35 +54,20 @@ Grid3<T> blockGrid(const Grid3<float>& fine) {
           GasMedium::blockCells * fine.cellSize};
 }
 
-/// Twice what is needed, since a growing cloud needs more in the next frame; pages that nobody touches cost nothing.
-SampleMemory withRoomFor(std::int64_t count, SampleMemory memory) {
-  if (memory.count >= count) return memory;
-  memory = {};
-  return {std::make_unique_for_overwrite<GasSample[]>(static_cast<std::size_t>(2 * count)), 2 * count};
-}
-
 }  // namespace
 
 GasOptics::GasOptics(const VolumeSettings& settings)
     : opacity_(static_cast<float>(settings.opacity)),
       minDensity_(static_cast<float>(settings.minDensity)),
       densityRange_(static_cast<float>(settings.maxDensity - settings.minDensity)),
-      fullDensity_(static_cast<float>(settings.fullDensity)),
+      perFullDensity_(static_cast<float>(1 / settings.fullDensity)),
       emission_(static_cast<float>(settings.emission)),
       smokeColour_(settings.smokeColour) {}
 
-float GasOptics::extinction(float density) const {
-  if (density <= 0) return 0;
-  const float share = std::min(1.0f, density / fullDensity_);
-  const float t = std::min(1.0f, share / fadeInShare);
-  const float fade = t * t * (3 - 2 * t);
-  return opacity_ * (minDensity_ * fade + densityRange_ * share);
-}
-
-GasMedium::GasMedium(const ParticleVolume& volume, const VolumeSettings& settings, SampleMemory memory)
+GasMedium::GasMedium(const ParticleVolume& volume, const VolumeSettings& settings, BrickMemory memory)
     : size_(volume.density.size),
       cellSize_(static_cast<float>(volume.density.cellSize)),
-      memory_(withRoomFor(volume.density.count(), std::move(memory))),
+      memory_(std::move(memory)),
       optics_(settings),
       step_(static_cast<float>(std::max(volume.density.cellSize, stepPerBlur * settings.blur))),
       origin_(volume.density.origin),
@@ -102,29 +85,55 @@ GasMedium::GasMedium(const ParticleVolume& volume, const VolumeSettings& setting
   boundOccupied();
 }
 
-/// A place between samples reads four short runs of memory instead of sixteen.
 void GasMedium::pack(const ParticleVolume& volume) {
-  constexpr std::int64_t cellsPerPiece = 1 << 16;
-  parallelFor(0, volume.density.count(), cellsPerPiece, [&](std::int64_t first, std::int64_t last) {
-    runWide([&] {
-      for (std::int64_t cell = first; cell < last; ++cell) {
-        const float density = volume.density.values[cell];
-        const Vec3f light = optics_.glow(volume.colour.values[cell]) * density;
-        memory_.samples[cell].values = GasSample::Vector{light.x, light.y, light.z, density};
-      }
-    });
+  brickOf_.assign(blockLargest_.values.size(), -1);
+  std::vector<std::int32_t> blocks;
+  for (std::int32_t block = 0; block < std::ssize(brickOf_); ++block) {
+    if (blockLargest_.values[block] <= 0) continue;
+    brickOf_[block] = static_cast<std::int32_t>(blocks.size());
+    blocks.push_back(block);
+  }
+  brickCount_ = static_cast<std::int32_t>(blocks.size());
+  memory_.reserve(brickCount_);
+  parallelFor(0, brickCount_, 16, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t n = first; n < last; ++n) {
+      memory_.bricks[n].block = blocks[n];
+      runWide([&] { packBrick(volume, memory_.bricks[n]); });
+    }
   });
 }
 
+Vec3i GasMedium::blockAt(std::int32_t number) const {
+  const Vec3i& n = blockLargest_.size;
+  return {number % n.x, number / n.x % n.y, number / n.x / n.y};
+}
+
+/// Beyond the volume's last samples those hold.
+void GasMedium::packBrick(const ParticleVolume& volume, GasBrick& brick) const {
+  const Vec3i lower = blockAt(brick.block) * blockCells;
+  GasSample samples[GasBrick::count];
+  GasSample* to = samples;
+  for (int z = 0; z < GasBrick::edge; ++z)
+    for (int y = 0; y < GasBrick::edge; ++y) {
+      const std::int64_t row =
+          volume.density.index(0, std::min(lower.y + y, size_.y - 1), std::min(lower.z + z, size_.z - 1));
+      for (int x = 0; x < GasBrick::edge; ++x) {
+        const std::int64_t cell = row + std::min(lower.x + x, size_.x - 1);
+        const float density = volume.density.values[cell];
+        const Vec3f light = optics_.glow(volume.colour.values[cell]) * density;
+        (to++)->values = GasSample::Vector{light.x, light.y, light.z, density};
+      }
+    }
+  brick.encode(samples);
+}
+
 GasSample GasMedium::sampleAt(const Vec3f& cells) const {
-  const Corner x = corner(cells.x, size_.x), y = corner(cells.y, size_.y), z = corner(cells.z, size_.z);
-  const std::int64_t row = size_.x, layer = row * size_.y;
-  const std::int64_t right = size_.x > 1, up = size_.y > 1 ? row : 0, back = size_.z > 1 ? layer : 0;
-  const GasSample* base = memory_.samples.get() + x.first + row * y.first + layer * z.first;
-  const auto line = [&](const GasSample* at) { return at[0].values + (at[right].values - at[0].values) * x.share; };
-  const auto plane = [&](const GasSample* at) { return line(at) + (line(at + up) - line(at)) * y.share; };
-  const GasSample::Vector near = plane(base), far = plane(base + back);
-  return {near + (far - near) * z.share};
+  const auto block = [&](int axis) {
+    return std::clamp(static_cast<int>(cells[axis]) / blockCells, 0, blockLargest_.size[axis] - 1);
+  };
+  const Vec3i at{block(0), block(1), block(2)};
+  const std::int32_t brick = brickOf_[blockLargest_.index(at.x, at.y, at.z)];
+  return brick < 0 ? GasSample{} : memory_.bricks[brick].at(cells - Vec3f(at * blockCells));
 }
 
 void GasMedium::summariseBlock(const ParticleVolume& volume, int i, int j, int k) {
@@ -184,34 +193,49 @@ bool GasMedium::clip(GasPath& path) const {
   return path.near < path.far;
 }
 
-/// Equations A.3 and A.4 for one step of a length [m] around a place [cells].
-void GasMedium::addStep(const Vec3f& place, float stepLength, GasPassage& passage) const {
-  const GasSample sample = sampleAt(place);
-  if (sample.density() <= 0) return;
-  const float passing = fastExp(-optics_.extinction(sample.density()) * stepLength);
-  passage.light += sample.light() * ((1 - passing) * passage.transmittance);
-  passage.transmittance *= passing;
-  if (passage.transmittance < seeThrough) passage.transmittance = 0;
-}
-
 void GasMedium::bakeScattered() {
-  parallelFor(0, size_.z, 2, [&](std::int64_t first, std::int64_t last) {
-    for (int k = static_cast<int>(first); k < last; ++k)
-      for (int j = 0; j < size_.y; ++j) runWide([&] { bakeRow(j, k); });
+  parallelFor(0, brickCount_, 16, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t n = first; n < last; ++n) runWide([&] { bakeBrick(memory_.bricks[n]); });
   });
 }
 
-void GasMedium::bakeRow(int j, int k) {
-  for (int i = 0; i < size_.x; ++i) {
-    if (blockLargest_(i / blockCells, j / blockCells, k / blockCells) <= 0) {
-      i += blockCells - 1 - i % blockCells;
-      continue;
+/// The light that a brick's samples scatter goes linearly between the centres of blocks: those of its own and of the
+/// blocks around it, of which the outermost hold beyond.
+void GasMedium::bakeBrick(GasBrick& brick) const {
+  constexpr float perBlock = 1.0f / blockCells, centre = 0.5f * (blockCells - 1);
+  const Vec3i block = blockAt(brick.block);
+  Vec3f around[3][3][3];
+  const auto clamped = [&](int axis, int offset) {
+    return std::clamp(block[axis] + offset - 1, 0, blockScattered_.size[axis] - 1);
+  };
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x) around[z][y][x] = blockScattered_(clamped(0, x), clamped(1, y), clamped(2, z));
+  GasSample samples[GasBrick::count];
+  brick.decode(samples);
+  GasSample* sample = samples;
+  const auto mixed = [](const Vec3f* three, float place) {
+    const int first = place < 1 ? 0 : 1;
+    return three[first] + (three[first + 1] - three[first]) * (place - static_cast<float>(first));
+  };
+  const auto placeOf = [](int cell) { return 1 + (static_cast<float>(cell) - centre) * perBlock; };
+  for (int z = 0; z < GasBrick::edge; ++z)
+    for (int y = 0; y < GasBrick::edge; ++y) {
+      Vec3f line[3];
+      for (int x = 0; x < 3; ++x) {
+        Vec3f layers[3];
+        for (int layer = 0; layer < 3; ++layer) {
+          const Vec3f column[3] = {around[layer][0][x], around[layer][1][x], around[layer][2][x]};
+          layers[layer] = mixed(column, placeOf(y));
+        }
+        line[x] = mixed(layers, placeOf(z));
+      }
+      for (int x = 0; x < GasBrick::edge; ++x, ++sample) {
+        const Vec3f light = mixed(line, placeOf(x)) * sample->density();
+        sample->values += GasSample::Vector{light.x, light.y, light.z, 0};
+      }
     }
-    GasSample& sample = memory_.samples[i + size_.x * (j + static_cast<std::int64_t>(size_.y) * k)];
-    if (sample.density() <= 0) continue;
-    const Vec3f light = sampleBlocks(blockScattered_, Vec3f(Vec3i(i, j, k))) * sample.density();
-    sample.values += GasSample::Vector{light.x, light.y, light.z, 0};
-  }
+  brick.encode(samples);
 }
 
 GasPassage GasMedium::march(const GasPath& path) const {
@@ -220,13 +244,19 @@ GasPassage GasMedium::march(const GasPath& path) const {
   return passage;
 }
 
+/// Equations A.3 and A.4.
 GasPassage GasMedium::marchHere(const GasPath& path) const {
-  GasPassage passage;
-  alongSteps(path, [&](const GasStep& step) {
-    addStep(step.place, step.to - step.from, passage);
-    return passage.transmittance > 0;
+  GasSample::Vector light{};
+  float transmittance = 1;
+  alongSteps(path, [&](const GasSteps& steps) {
+    for (int n = 0; n < steps.count; ++n) {
+      light += steps.sample[n].values * ((1 - steps.passing[n]) * steps.perDensity[n] * transmittance);
+      transmittance *= steps.passing[n];
+      if (transmittance < seeThrough) transmittance = 0;
+    }
+    return transmittance > 0;
   });
-  return passage;
+  return {{light[0], light[1], light[2]}, transmittance};
 }
 
 float GasMedium::roughTransmittance(const GasPath& path) const {
@@ -243,7 +273,14 @@ float GasMedium::roughTransmittanceHere(GasPath path) const {
   const Vec3f start = (path.origin + path.direction * (path.near + 0.5f * step) - origin_) * perCell,
               stride = path.direction * (step * perCell);
   float depth = 0;
-  for (int s = 0; s < steps; ++s) depth += sampleBlocks(blockExtinction_, start + stride * static_cast<float>(s));
+  constexpr int lanes = 16;
+  for (int first = 0; first < steps; first += lanes) {
+    float extinction[lanes];
+    for (int n = 0; n < lanes; ++n)  // those beyond the last are read at its place, and do not count
+      extinction[n] =
+          sampleBlocks(blockExtinction_, start + stride * static_cast<float>(std::min(first + n, steps - 1)));
+    for (int n = 0; n < std::min(lanes, steps - first); ++n) depth += extinction[n];
+  }
   return std::exp(-depth * step);
 }
 

@@ -1,10 +1,12 @@
 // The gas as light passes it (appendix A.2): the particles' volume marched from front to back.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
 #include "frame/particle_volume.h"
+#include "render/gas_bricks.h"
 #include "render/render_settings.h"
 
 namespace brisance {
@@ -28,46 +30,36 @@ class GasOptics {
   explicit GasOptics(const VolumeSettings& settings);
   /// Opacity per metre, kappa = tau d with d = min_d + (max_d - min_d) min(1, density / fullDensity). The part min_d
   /// fades in over the first hundredth of the range, so that thin gas has no rim. [1/m]
-  float extinction(float density) const;
+  float extinction(float density) const {
+    const float share = std::min(std::max(density * perFullDensity_, 0.0f), 1.0f);
+    const float t = std::min(share * perFadeIn, 1.0f);
+    return opacity_ * (minDensity_ * (t * t * (3 - 2 * t)) + densityRange_ * share);
+  }
   /// What fully opaque gas of a blackbody colour gives off itself: part of I in equation A.4.
   Vec3f glow(const Vec3f& colour) const { return colour * emission_; }
   /// The other part: what it scatters of light of that radiance from all around.
   Vec3f scattered(const Vec3f& around) const { return smokeColour_ * around; }
 
  private:
-  float opacity_, minDensity_, densityRange_, fullDensity_, emission_;
+  static constexpr float perFadeIn = 100;  ///< 1 / the share of the density range over which min_d fades in
+  float opacity_, minDensity_, densityRange_, perFullDensity_, emission_;
   Vec3f smokeColour_;
 };
 
 struct LightSource;
+struct GasSteps;
 class FireSampler;
 class NumberRun;
-
-/// A sample of the gas as one vector of the processor: density times light, and the density.
-struct GasSample {
-  using Vector [[gnu::vector_size(16)]] = float;
-  Vector values;
-  float density() const { return values[3]; }
-  Vec3f light() const {
-    return Vec3f(values[0], values[1], values[2]) / values[3];
-  }  ///< I of equation A.4, where there is density
-};
-
-/// Room for samples, used again from frame to frame: fresh pages cost more time than the samples in them.
-struct SampleMemory {
-  std::unique_ptr<GasSample[]> samples;
-  std::int64_t count = 0;
-};
 
 /// A volume and a coarse grid of blocks over it, by which rays skip the empty parts.
 class GasMedium {
  public:
-  static constexpr int blockCells = 8;  ///< along each edge of a block
+  static constexpr int blockCells = GasBrick::cells;  ///< along each edge of a block
 
   /// Copies the volume, into `memory` where that is large enough.
-  GasMedium(const ParticleVolume& volume, const VolumeSettings& settings, SampleMemory memory = {});
+  GasMedium(const ParticleVolume& volume, const VolumeSettings& settings, BrickMemory memory = {});
   /// The memory of a medium that is no longer needed.
-  static SampleMemory memoryOf(GasMedium&& gas) { return std::move(gas.memory_); }
+  static BrickMemory memoryOf(GasMedium&& gas) { return std::move(gas.memory_); }
 
   /// What each block scatters, once and alike in all directions: light of the surroundings as much as the gas on six
   /// sides lets through, and what lights send through the gas before it. Bodies do not shade the gas. To be called at
@@ -109,22 +101,26 @@ class GasMedium {
   Vec3f arriving(const Vec3f& place, const Vec3f& ambientLight, const std::vector<LightSource>& lights) const;
   void summariseBlock(const ParticleVolume& volume, int i, int j, int k);
   void pack(const ParticleVolume& volume);
+  void packBrick(const ParticleVolume& volume, GasBrick& brick) const;
   GasSample sampleAt(const Vec3f& cells) const;
-  void addStep(const Vec3f& place, float stepLength, GasPassage& passage) const;
   void boundOccupied();
   void bakeScattered();
-  void bakeRow(int j, int k);
+  void bakeBrick(GasBrick& brick) const;
+  Vec3i blockAt(std::int32_t number) const;
   // The loops themselves, compiled for the processor at hand by their callers.
-  template <class Step>
-  void alongSteps(GasPath path, const Step& step) const;
+  template <class Use>
+  void alongSteps(GasPath path, const Use& use) const;
+  void look(const GasPath& path, GasSteps& steps) const;
   GasPassage marchHere(const GasPath& path) const;
   std::optional<float> collisionHere(GasPath path, NumberRun& numbers) const;
   float roughTransmittanceHere(GasPath path) const;
   bool clip(GasPath& path) const;
 
-  Vec3i size_;           ///< [cells]
-  float cellSize_;       ///< [m]
-  SampleMemory memory_;  ///< the cells' samples at their centres, x fastest
+  Vec3i size_;      ///< [cells]
+  float cellSize_;  ///< [m]
+  BrickMemory memory_;
+  std::vector<std::int32_t> brickOf_;  ///< by block; -1 where there is no gas
+  std::int32_t brickCount_ = 0;
   GasOptics optics_;
   float step_;                    ///< [m]
   Vec3f origin_, lower_, upper_;  ///< [m] sample (0, 0, 0), and the box of the blocks that hold gas

@@ -9,26 +9,33 @@
 namespace brisance {
 
 GasPassage GasMedium::marchShared(const GasPath& path, float density, const FireSampler& fire) const {
-  GasPassage passage;
+  const float perCell = 1 / cellSize_;
+  const Vec3f start = (path.origin - origin_) * perCell, slope = path.direction * perCell;
+  GasSample::Vector light{};
+  float transmittance = 1;
   runWide([&] {
-    alongSteps(path, [&](const GasStep& step) {
-      const Vec3f before = passage.light;
-      addStep(step.place, step.to - step.from, passage);
-      const float distance = 0.5f * (step.from + step.to);
-      const float drawn = fire.density(step.block, step.place) * distance * distance;  // [1/sr] there
-      passage.light = before + (passage.light - before) * (density / (density + drawn));
-      return passage.transmittance > 0;
+    alongSteps(path, [&](const GasSteps& steps) {
+      for (int n = 0; n < steps.count; ++n) {
+        const float distance = steps.middle(n);
+        const std::int32_t block = memory_.bricks[steps.brick[n]].block;
+        const float drawn = fire.density(block, start + slope * distance) * distance * distance;  // [1/sr] there
+        const float share = density / (density + drawn);
+        light += steps.sample[n].values * ((1 - steps.passing[n]) * steps.perDensity[n] * transmittance * share);
+        transmittance *= steps.passing[n];
+        if (transmittance < seeThrough) transmittance = 0;
+      }
+      return transmittance > 0;
     });
   });
-  return passage;
+  return {{light[0], light[1], light[2]}, transmittance};
 }
 
 float GasMedium::transmittance(const GasPath& path) const {
   float depth = 0;
   const float mostDepth = -std::log(seeThrough);
   runWide([&] {
-    alongSteps(path, [&](const GasStep& step) {
-      depth += optics_.extinction(sampleAt(step.place).density()) * (step.to - step.from);
+    alongSteps(path, [&](const GasSteps& steps) {
+      for (int n = 0; n < steps.count; ++n) depth += steps.depth[n];
       return depth < mostDepth;
     });
   });
@@ -38,12 +45,16 @@ float GasMedium::transmittance(const GasPath& path) const {
 float GasMedium::distanceAtOpacity(const GasPath& path, float transmittance, float share) const {
   const float wanted = -std::log(1 - share * (1 - transmittance));
   float depth = 0, distance = path.far;
+  bool passed = false;
+  const auto pass = [&](const GasSteps& steps, int n) {
+    const float own = steps.depth[n];
+    passed = own > 0 && depth + own >= wanted;
+    distance = passed ? steps.from[n] + steps.length(n) * (wanted - depth) / own : steps.to[n];
+    depth += own;
+  };
   runWide([&] {
-    alongSteps(path, [&](const GasStep& step) {
-      const float own = optics_.extinction(sampleAt(step.place).density()) * (step.to - step.from);
-      const bool passed = own > 0 && depth + own >= wanted;
-      distance = passed ? step.from + (step.to - step.from) * (wanted - depth) / own : step.to;
-      depth += own;
+    alongSteps(path, [&](const GasSteps& steps) {
+      for (int n = 0; n < steps.count && !passed; ++n) pass(steps, n);
       return !passed;
     });
   });
@@ -59,21 +70,21 @@ std::optional<float> GasMedium::collision(const GasPath& path, NumberRun& number
 std::optional<float> GasMedium::collisionHere(GasPath path, NumberRun& numbers) const {
   if (!clip(path)) return std::nullopt;
   const float perCell = 1 / cellSize_;
-  const GridWay way{(path.origin - origin_) * perCell, path.direction * perCell};
-  const float nudge = 1e-4f * cellSize_;  // into the next block
-  for (float at = path.near; at < path.far;) {
-    const Vec3i block = way.block(way.at(at), blockLargest_.size);
-    const float out = std::max(std::min(way.leaves(block, blockLargest_.size), path.far), at) + nudge;
-    const float most = optics_.extinction(blockLargest_(block.x, block.y, block.z));
+  const Vec3f origin = (path.origin - origin_) * perCell, direction = path.direction * perCell;
+  BlockWalk walk(origin + direction * path.near, direction, path.near, blockLargest_.size);
+  for (float at = path.near;; walk.next()) {
+    const float leaves = walk.leaves(), out = std::min(leaves, path.far);
+    const std::int32_t brick = brickOf_[walk.number()];
+    const float most = brick < 0 ? 0 : optics_.extinction(blockLargest_.values[walk.number()]);
     while (most > 0) {
       at -= std::log(1 - numbers()) / most;
       if (at >= out) break;
-      if (numbers() * most < optics_.extinction(sampleAt(way.at(at)).density()))
-        return at < path.far ? std::optional(at) : std::nullopt;
+      const GasSample sample = memory_.bricks[brick].at(origin + direction * at - walk.lower());
+      if (numbers() * most < optics_.extinction(sample.density())) return at;
     }
+    if (leaves >= path.far) return std::nullopt;
     at = out;
   }
-  return std::nullopt;
 }
 
 Vec3f GasMedium::emissionAtCell(const Vec3f& place) const {

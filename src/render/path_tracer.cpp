@@ -37,7 +37,9 @@ class PathTracer {
  public:
   PathTracer(const PathWorld& world, float phase, SampleSequence& numbers)
       : world_(world), phase_(phase), resolution_(world.geometry.resolution()), numbers_(numbers) {}
-  Vec3f follow(Walk walk);
+  Vec3f follow(Walk walk) { return follow(walk, world_.geometry.find(walk.ray)); }
+  /// `found`: what the walk meets first.
+  Vec3f follow(Walk walk, FoundTriangle found);
 
  private:
   enum class Fate { surface, scattered, ended };
@@ -60,16 +62,15 @@ class PathTracer {
   SampleSequence& numbers_;
 };
 
-Vec3f PathTracer::follow(Walk walk) {
+Vec3f PathTracer::follow(Walk walk, FoundTriangle found) {
   Vec3f sum;
-  for (;;) {
-    SurfaceHit hit;
-    const bool found = world_.geometry.closest(walk.ray, hit);
-    const Fate fate = crossGas(walk, found ? hit.distance : std::numeric_limits<float>::max(), sum);
+  for (;; found = world_.geometry.find(walk.ray)) {
+    const float far = found.isNone() ? std::numeric_limits<float>::max() : found.distance;
+    const Fate fate = crossGas(walk, far, sum);
     if (fate == Fate::ended) return sum;
     if (fate == Fate::scattered) continue;
-    if (!found) return sum + walk.throughput * beyond(walk);
-    if (!meetSurface(walk, hit, sum) || !survives(walk)) return sum;
+    if (found.isNone()) return sum + walk.throughput * beyond(walk);
+    if (!meetSurface(walk, world_.geometry.surfaceAt(found), sum) || !survives(walk)) return sum;
   }
 }
 
@@ -266,11 +267,28 @@ bool PathTracer::survives(Walk& walk) {
 
 }  // namespace
 
-Vec3f pathRadiance(const PathWorld& world, const Ray& ray, float phase, SampleSequence& numbers) {
+namespace {
+
+Walk fromCamera(const PathWorld& world, const Ray& ray) {
   Walk walk;
   walk.ray = ray;
   walk.splits = world.settings.splits;
-  return PathTracer(world, phase, numbers).follow(walk);
+  return walk;
+}
+
+}  // namespace
+
+Vec3f pathRadiance(const PathWorld& world, const Ray& ray, float phase, SampleSequence& numbers) {
+  return PathTracer(world, phase, numbers).follow(fromCamera(world, ray));
+}
+
+void pathRadiance(const PathWorld& world, std::span<CameraRay> rays, std::span<Vec3f> light) {
+  std::array<Ray, SceneGeometry::packet> ways;
+  std::array<FoundTriangle, SceneGeometry::packet> found;
+  for (std::size_t n = 0; n < rays.size(); ++n) ways[n] = rays[n].ray;
+  world.geometry.find(std::span(ways).first(rays.size()), found);
+  for (std::size_t n = 0; n < rays.size(); ++n)
+    light[n] = PathTracer(world, rays[n].phase, rays[n].numbers).follow(fromCamera(world, ways[n]), found[n]);
 }
 
 }  // namespace brisance

@@ -2,7 +2,10 @@
 // bounce.
 #pragma once
 
+#include <span>
+
 #include "render/area_lights.h"
+#include "render/camera_rays.h"
 #include "render/environment.h"
 #include "render/fire_sampler.h"
 #include "render/gas_medium.h"
@@ -30,5 +33,7 @@ struct PathWorld {
 /// An estimate of the light that arrives at the origin of a ray, scene-linear; its mean over samples is the light.
 /// `phase` (0 .. 1) shifts the samples taken in the gas.
 Vec3f pathRadiance(const PathWorld& world, const Ray& ray, float phase, SampleSequence& numbers);
+/// The same for a packet of rays, at most SceneGeometry::packet.
+void pathRadiance(const PathWorld& world, std::span<CameraRay> rays, std::span<Vec3f> light);
 
 }  // namespace brisance

@@ -31,7 +31,7 @@ std::unique_ptr<GasMedium> gasOfCells(const FrameGas& gas, VolumeSettings settin
   if (!hasGas(gas)) return nullptr;
   gasVolume(gas, settings, heat, scratch.volume);
   settings.blur = 0;
-  return std::make_unique<GasMedium>(scratch.volume, settings, std::move(scratch.samples));
+  return std::make_unique<GasMedium>(scratch.volume, settings, std::move(scratch.bricks));
 }
 
 std::unique_ptr<GasMedium> gasOf(const Frame& frame, const RenderSettings& settings, const BlackbodyColours& heat,
@@ -48,7 +48,7 @@ std::unique_ptr<GasMedium> gasOf(const Frame& frame, const RenderSettings& setti
   if (!volume.drawn || !seen()) return nullptr;
   const ParticleVolumeSettings grid{volume.cells, volume.corner, volume.cellSize, volume.blur, volume.filterSize};
   splatParticles(particles, grid, weigh, heat, scratch.volume, scratch.splat);
-  return std::make_unique<GasMedium>(scratch.volume, volume, std::move(scratch.samples));
+  return std::make_unique<GasMedium>(scratch.volume, volume, std::move(scratch.bricks));
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ Exposed drawn(const Subject& subject, const WhittedIntegrator&) {
   if (subject.gas) subject.gas->illuminate(settings.ambientLight, lights);
   const RayWorld world{subject.geometry,    subject.materials,     lights,           subject.gas,
                        subject.environment, settings.ambientLight, settings.maxDepth};
-  return exposed(subject, [&](const Ray& ray, float phase, SampleSequence&) { return radiance(world, ray, phase); });
+  return exposed(subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { radiance(world, rays, light); });
 }
 
 /// Fire is no light of the list here: its gas itself is drawn from.
@@ -108,9 +108,7 @@ Exposed drawn(const Subject& subject, const PathIntegrator& integrator) {
                         static_cast<float>(settings.volume.anisotropy),
                         integrator,
                         settings.maxDepth};
-  return exposed(subject, [&](const Ray& ray, float phase, SampleSequence& numbers) {
-    return pathRadiance(world, ray, phase, numbers);
-  });
+  return exposed(subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { pathRadiance(world, rays, light); });
 }
 
 void drawLayers(const Subject& subject, PictureLayers& layers, PictureGuides& guides) {
@@ -151,7 +149,7 @@ DrawnPicture drawPicture(const Frame& frame, const RenderSettings& settings, con
   }
   picture.light = std::move(exposed.mean);
   picture.variance = std::move(exposed.variance);
-  if (gas) scratch.samples = GasMedium::memoryOf(std::move(*gas));
+  if (gas) scratch.bricks = GasMedium::memoryOf(std::move(*gas));
   return picture;
 }
 

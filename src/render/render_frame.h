@@ -5,6 +5,7 @@
 
 #include "frame/frame.h"
 #include "render/blackbody.h"
+#include "render/camera_rays.h"
 #include "render/environment.h"
 #include "render/gas_medium.h"
 #include "render/picture_layers.h"
@@ -27,7 +28,7 @@ struct RenderAssets {
 struct RenderScratch {
   ParticleVolume volume;
   SplatScratch splat;
-  SampleMemory samples;
+  BrickMemory bricks;
 };
 
 /// Light, and what else is known of each pixel.

@@ -3,8 +3,10 @@
 #include <chrono>
 
 #include "base/check.h"
+#include "render/flow_arrows.h"
 #include "render/layer_file.h"
 #include "render/picture_file.h"
+#include "render/piece_paint.h"
 
 namespace brisance {
 namespace {
@@ -52,7 +54,8 @@ RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const
   const auto start = std::chrono::steady_clock::now();
   const FrameRange range = checkedRange(run, options);
   const RenderAssets assets(settings);
-  const bool readsGas = settings.volume.drawn && settings.volume.source == VolumeSource::gas;
+  const bool drawsCells = settings.volume.drawn && settings.volume.source == VolumeSource::gas;
+  const bool readsGas = drawsCells || settings.flow.drawn;
   RenderScratch scratch;
   RenderSummary summary;
   for (int n = 0; n < range.count(); ++n) {
@@ -64,9 +67,12 @@ RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const
     if (options.skipExisting && isDrawn(run, index, settings.writeExr)) {
       ++summary.skipped;
     } else {
-      const Frame frame = readFrame(run.path(), index, readsGas);
+      Frame frame = readFrame(run.path(), index, readsGas);
+      RenderSettings look = settings;
+      if (settings.flow.drawn) addFlow(frame.gas, settings.flow, frame.bodies, look.materials);
+      paintPieces(frame.bodies, look.materials, assets.heat);
       const PictureTime time{options.startTime + (index - 1) / options.fps, 1 / options.fps, options.timeScale};
-      addPictures(run, index, drawPicture(frame, settings, assets, time, scratch), settings);
+      addPictures(run, index, drawPicture(frame, look, assets, time, scratch), settings);
       ++summary.rendered;
     }
     if (options.progress) options.progress("render", n + 1, range.count());

@@ -71,6 +71,8 @@ struct Material {
   Vec3f absorption{0, 0, 0};  ///< [1/m] inside glass
   bool smooth = false;        ///< Phong shading: normals between vertices
   bool castsShadow = true;
+  double pieceTint = 0;  ///< how far the hues of pieces lie apart: 0 all alike .. 1
+  double glow = 0;       ///< times the blackbody colour of a body's temperature: what it shines with
 };
 
 struct PointLight {
@@ -119,6 +121,15 @@ struct VolumeSettings {
   double anisotropy = 0;                ///< mean cosine of the scattering angle (path integrator)
 };
 
+/// The gas' velocity drawn as arrows in a box, which may be flat.
+struct FlowSettings {
+  bool drawn = false;
+  Vec3d lower, upper{1, 1, 1};  ///< [m] corners
+  double spacing = 0.1;         ///< [m] between arrows
+  double seconds = 0.05;        ///< [s] of the gas' way that an arrow is long
+  Vec3f colour{.03f, .1f, .35f};
+};
+
 /// Light from far away: a picture of all directions.
 struct EnvironmentSettings {
   std::optional<std::filesystem::path>
@@ -153,6 +164,7 @@ struct RenderSettings {
   std::vector<Light> lights;
   std::map<std::string, Material> materials;
   VolumeSettings volume;
+  FlowSettings flow;
 };
 
 }  // namespace brisance

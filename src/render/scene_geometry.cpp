@@ -9,55 +9,15 @@
 
 #include "base/check.h"
 #include "render/dielectric.h"
+#include "render/drawn_bodies.h"
 
 namespace brisance {
-
-Pose poseAfter(const FrameBody& body, double seconds) {
-  const double speed = length(body.angularVelocity);
-  const Vec3d position = body.pose.position + body.linearVelocity * seconds;
-  if (speed * seconds == 0) return {position, body.pose.orientation};
-  return {position, normalized(axisAngle(body.angularVelocity / speed, speed * seconds) * body.pose.orientation)};
-}
 
 namespace {
 
 /// Of the largest coordinate: some sixteen steps of a float, the error of a hit's place.
 constexpr float relativeResolution = 2e-6f;
 constexpr float smallestResolution = 1e-7f;  // [m]
-
-/// Unit normals of the vertices, weighted by the area of the faces around them (Algorithm 8 in one pass over the
-/// faces).
-std::vector<Vec3d> vertexNormals(const TriangleMesh& mesh) {
-  std::vector<Vec3d> normals(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3d& a = mesh.vertices[t[0]];
-    const Vec3d twiceArea = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    for (const std::uint32_t vertex : t) normals[vertex] += twiceArea;
-  }
-  for (Vec3d& normal : normals) normal = normalized(normal);
-  return normals;
-}
-
-/// What a hit looks up about a body.
-struct DrawnBody {
-  std::shared_ptr<const TriangleMesh> mesh;
-  std::vector<std::uint16_t> materials;  ///< one, or one per triangle
-  std::vector<Vec3d> normals;            ///< of vertices where the mesh has none and a material is smooth
-  Mat3 rotation;
-
-  std::uint16_t material(std::uint32_t triangle) const {
-    return materials.size() == 1 ? materials[0] : materials[triangle];
-  }
-  const std::vector<Vec3d>& smoothNormals() const { return normals.empty() ? mesh->normals : normals; }
-};
-
-DrawnBody drawnBody(const FrameBody& body, const MaterialTable& materials) {
-  DrawnBody drawn{body.mesh, materials.ofTriangles(body), {}, rotationMatrix(body.pose.orientation)};
-  const bool smooth = std::any_of(drawn.materials.begin(), drawn.materials.end(),
-                                  [&](std::uint16_t m) { return materials[m].settings.smooth; });
-  if (smooth && body.mesh->normals.empty()) drawn.normals = vertexNormals(*body.mesh);
-  return drawn;
-}
 
 float placeVertices(RTCGeometry geometry, unsigned slot, const TriangleMesh& mesh, const Pose& pose) {
   auto* to = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, slot, RTC_FORMAT_FLOAT3,
@@ -101,36 +61,11 @@ RTCRayHit rayHit(const Ray& ray, float far) {
   return query;
 }
 
-Vec3f normalOf(const RTCHit& hit) { return normalized(Vec3f(hit.Ng_x, hit.Ng_y, hit.Ng_z)); }
-
-template <class T>
-T atCorners(const std::vector<T>& values, const Triangle& triangle, double u, double v) {
-  return values[triangle[0]] * (1 - u - v) + values[triangle[1]] * u + values[triangle[2]] * v;
-}
-
-/// The way u grows over a triangle (uVec of appendix A.1.2, up to its length); zero where no u v tells.
-Vec3d alongU(const TriangleMesh& mesh, const Triangle& t) {
-  if (mesh.uvs.empty()) return {};
-  const Vec2d a = mesh.uvs[t[1]] - mesh.uvs[t[0]], b = mesh.uvs[t[2]] - mesh.uvs[t[0]];
-  const double m = a.x * b.y - a.y * b.x;
-  const Vec3d along =
-      (mesh.vertices[t[1]] - mesh.vertices[t[0]]) * b.y - (mesh.vertices[t[2]] - mesh.vertices[t[0]]) * a.y;
-  return m < 0 ? -along : m > 0 ? along : Vec3d{};
-}
-
-/// The bodies by Embree's geometry number.
-struct DrawnBodies {
-  const MaterialTable& materials;
-  std::vector<DrawnBody> drawn{};
-  bool anyLetsLightPass = false;  ///< glass, or a material that casts no shadow
-
-  std::uint16_t materialNumber(const RTCHit& hit) const { return drawn[hit.geomID].material(hit.primID); }
-  const Material& material(const RTCHit& hit) const { return materials[materialNumber(hit)].settings; }
-  void add(const FrameBody& body) {
-    drawn.push_back(drawnBody(body, materials));
-    for (const std::uint16_t m : drawn.back().materials)
-      anyLetsLightPass |= materials[m].settings.glass || !materials[m].settings.castsShadow;
-  }
+/// What a ray has passed on its way to a light.
+struct GlassPassed {
+  Vec3f passing{1, 1, 1};
+  Vec3f opticalDepth{};  ///< sum of absorption times way inside: leaving distances minus entering ones
+  Vec3f light() const { return opticalDepth == Vec3f{} ? passing : passing * beerTransmittance(opticalDepth, 1); }
 };
 
 /// Embree hands its context to the filter; ours begins with it.
@@ -138,25 +73,31 @@ struct ShadowQuery {
   RTCIntersectContext context;
   const DrawnBodies& bodies;
   GlassShade glass;
-  Vec3f passing{1, 1, 1};
-  Vec3f opticalDepth{};  ///< sum of absorption times way inside: leaving distances minus entering ones
+  GlassPassed passed[SceneGeometry::packet]{};  ///< by the rays' ids
 };
 
 bool isLeaving(const RTCRay& ray, const RTCHit& hit) {
   return dot(Vec3f(hit.Ng_x, hit.Ng_y, hit.Ng_z), Vec3f(ray.dir_x, ray.dir_y, ray.dir_z)) > 0;
 }
 
+bool passesGlass(ShadowQuery& shadow, const RTCRay& ray, const RTCHit& hit) {
+  const Material& material = shadow.bodies.settings(hit.geomID, hit.primID);
+  const bool passable = material.glass && shadow.glass == GlassShade::passes;
+  if (material.castsShadow && !passable) return false;
+  if (!material.castsShadow) return true;
+  GlassPassed& passed = shadow.passed[ray.id];
+  passed.passing *= 1 - fresnelReflectance(1, static_cast<float>(1 / material.refractiveIndex));
+  passed.opticalDepth += material.absorption * (isLeaving(ray, hit) ? ray.tfar : -ray.tfar);
+  return true;
+}
+
+/// What remains valid is a hit: there the light is blocked.
 void passGlass(const RTCFilterFunctionNArguments* query) {
   auto& shadow = *reinterpret_cast<ShadowQuery*>(query->context);
-  const RTCRay ray = rtcGetRayFromRayN(query->ray, query->N, 0);
-  const RTCHit hit = rtcGetHitFromHitN(query->hit, query->N, 0);
-  const Material& material = shadow.bodies.material(hit);
-  const bool passable = material.glass && shadow.glass == GlassShade::passes;
-  if (material.castsShadow && !passable) return;  // a hit: the light is blocked
-  query->valid[0] = 0;
-  if (!material.castsShadow) return;
-  shadow.passing *= 1 - fresnelReflectance(1, static_cast<float>(1 / material.refractiveIndex));
-  shadow.opticalDepth += material.absorption * (isLeaving(ray, hit) ? ray.tfar : -ray.tfar);
+  for (unsigned n = 0; n < query->N; ++n)
+    if (query->valid[n] &&
+        passesGlass(shadow, rtcGetRayFromRayN(query->ray, query->N, n), rtcGetHitFromHitN(query->hit, query->N, n)))
+      query->valid[n] = 0;
 }
 
 /// Looks for the other surface of a touching pair.
@@ -172,7 +113,7 @@ void findCounterpart(const RTCFilterFunctionNArguments* query) {
   const RTCRay ray = rtcGetRayFromRayN(query->ray, query->N, 0);
   const RTCHit hit = rtcGetHitFromHitN(query->hit, query->N, 0);
   if (hit.geomID == touch.first.body || isLeaving(ray, hit) == touch.leaving ||
-      touch.bodies.materialNumber(hit) != touch.first.material)
+      touch.bodies.material(hit.geomID, hit.primID) != touch.first.material)
     query->valid[0] = 0;
 }
 
@@ -183,6 +124,31 @@ RTCIntersectContext* prepared(Query& query, RTCFilterFunctionN filter) {
   return &query.context;
 }
 
+constexpr float endless = std::numeric_limits<float>::infinity();
+
+/// Which lanes of a packet hold rays.
+struct alignas(64) ValidLanes {
+  int value[SceneGeometry::packet];
+  explicit ValidLanes(std::size_t count) {
+    for (int n = 0; n < SceneGeometry::packet; ++n) value[n] = n < static_cast<int>(count) ? -1 : 0;
+  }
+};
+
+void setRay(RTCRay16& to, int lane, const Ray& ray, float far) {
+  to.org_x[lane] = ray.origin.x;
+  to.org_y[lane] = ray.origin.y;
+  to.org_z[lane] = ray.origin.z;
+  to.tnear[lane] = ray.near;
+  to.dir_x[lane] = ray.direction.x;
+  to.dir_y[lane] = ray.direction.y;
+  to.dir_z[lane] = ray.direction.z;
+  to.time[lane] = ray.time;
+  to.tfar[lane] = far;
+  to.mask[lane] = ~0u;
+  to.id[lane] = static_cast<unsigned>(lane);
+  to.flags[lane] = 0;
+}
+
 }  // namespace
 
 struct SceneGeometry::Bodies {
@@ -190,7 +156,7 @@ struct SceneGeometry::Bodies {
   RTCScene scene = rtcNewScene(device);
   DrawnBodies list;
 
-  explicit Bodies(const MaterialTable& materials) : list{materials} {
+  explicit Bodies(const MaterialTable& materials) : list(materials) {
     rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   }
   ~Bodies() {
@@ -207,6 +173,7 @@ struct SceneGeometry::Bodies {
 /// Returns the body's largest coordinate.
 float SceneGeometry::Bodies::add(const FrameBody& body, double openTime) {
   list.add(body);
+  if (body.mesh->triangles.empty()) return 0;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const bool blurred = openTime > 0 && body.moves;
   float largest;
@@ -219,7 +186,7 @@ float SceneGeometry::Bodies::add(const FrameBody& body, double openTime) {
   }
   placeTriangles(geometry, *body.mesh);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(list.drawn.size() - 1));
+  rtcAttachGeometryByID(scene, geometry, list.size() - 1);
   rtcReleaseGeometry(geometry);
   return largest;
 }
@@ -242,37 +209,60 @@ SceneGeometry::SceneGeometry(const std::vector<FrameBody>& bodies, const Materia
 
 SceneGeometry::~SceneGeometry() = default;
 
-bool SceneGeometry::closest(const Ray& ray, SurfaceHit& hit) const {
-  RTCRayHit query = rayHit(ray, std::numeric_limits<float>::infinity());
+FoundTriangle SceneGeometry::find(const Ray& ray) const {
+  RTCRayHit query = rayHit(ray, endless);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(bodies_->scene, &context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  const RTCHit& hit = query.hit;
+  return {hit.geomID, hit.primID, query.ray.tfar, hit.u, hit.v, {hit.Ng_x, hit.Ng_y, hit.Ng_z}};
+}
 
-  const DrawnBody& body = bodies_->list.drawn[query.hit.geomID];
-  const Triangle& triangle = body.mesh->triangles[query.hit.primID];
-  hit.distance = query.ray.tfar;
-  hit.normal = normalOf(query.hit);
-  hit.body = query.hit.geomID;
-  hit.material = body.material(query.hit.primID);
-  const double u = query.hit.u, v = query.hit.v;
-  const SurfaceMaterial& material = bodies_->list.materials[hit.material];
-  hit.shadingNormal = material.settings.smooth
-                          ? Vec3f(normalized(body.rotation * atCorners(body.smoothNormals(), triangle, u, v)))
-                          : hit.normal;
-  const Vec2d uv = body.mesh->uvs.empty() ? Vec2d{} : atCorners(body.mesh->uvs, triangle, u, v);
-  hit.texture.uv = {static_cast<float>(uv.x), static_cast<float>(uv.y)};
-  if (material.isSolidPattern()) hit.texture.inBody = Vec3f(atCorners(body.mesh->vertices, triangle, u, v));
-  if (material.isAnisotropic()) hit.alongU = Vec3f(body.rotation * alongU(*body.mesh, triangle));
+void SceneGeometry::find(std::span<const Ray> rays, std::span<FoundTriangle> found) const {
+  const ValidLanes valid(rays.size());
+  RTCRayHit16 query;
+  for (int lane = 0; lane < std::ssize(rays); ++lane) {
+    setRay(query.ray, lane, rays[lane], endless);
+    query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid.value, bodies_->scene, &context, &query);
+  const RTCHit16& hit = query.hit;
+  for (int lane = 0; lane < std::ssize(rays); ++lane)
+    found[lane] = {hit.geomID[lane], hit.primID[lane], query.ray.tfar[lane],
+                   hit.u[lane],      hit.v[lane],      {hit.Ng_x[lane], hit.Ng_y[lane], hit.Ng_z[lane]}};
+}
+
+bool SceneGeometry::closest(const Ray& ray, SurfaceHit& hit) const {
+  const FoundTriangle found = find(ray);
+  if (found.isNone()) return false;
+  hit = surfaceAt(found);
   return true;
 }
+
+SurfaceHit SceneGeometry::surfaceAt(const FoundTriangle& found) const { return bodies_->list.surfaceAt(found); }
 
 Vec3f SceneGeometry::lightPassing(const Ray& ray, float distance, GlassShade glass) const {
   RTCRay query = rayHit(ray, distance).ray;
   ShadowQuery shadow{{}, bodies_->list, glass};
-  rtcOccluded1(bodies_->scene, prepared(shadow, bodies_->list.anyLetsLightPass ? passGlass : nullptr), &query);
-  if (query.tfar < 0) return {};  // how Embree says that something is in the way
-  return shadow.opticalDepth == Vec3f{} ? shadow.passing : shadow.passing * beerTransmittance(shadow.opticalDepth, 1);
+  rtcOccluded1(bodies_->scene, prepared(shadow, bodies_->list.anyLetsLightPass() ? passGlass : nullptr), &query);
+  const bool blocked = query.tfar < 0;  // how Embree says that something is in the way
+  return blocked ? Vec3f{} : shadow.passed[0].light();
+}
+
+void SceneGeometry::lightPassing(std::span<const Ray> rays, std::span<const float> distances,
+                                 std::span<Vec3f> passing) const {
+  const ValidLanes valid(rays.size());
+  RTCRay16 query;
+  for (int lane = 0; lane < std::ssize(rays); ++lane) setRay(query, lane, rays[lane], distances[lane]);
+  ShadowQuery shadow{{}, bodies_->list, GlassShade::passes};
+  RTCIntersectContext* context = prepared(shadow, bodies_->list.anyLetsLightPass() ? passGlass : nullptr);
+  context->flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(valid.value, bodies_->scene, context, &query);
+  for (int lane = 0; lane < std::ssize(rays); ++lane)
+    passing[lane] = query.tfar[lane] < 0 ? Vec3f{} : shadow.passed[lane].light();
 }
 
 bool SceneGeometry::touchesSameGlass(const Ray& ray, const SurfaceHit& hit) const {

@@ -1,5 +1,6 @@
 #include "render/textures.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -21,20 +22,17 @@ const std::array<float, 256>& linearOfCode() {
   return table;
 }
 
-int wrapped(std::int64_t i, int n) {
-  const auto rest = static_cast<int>(i % n);
-  return rest < 0 ? rest + n : rest;
-}
-
 /// Where between two pixel centres a coordinate falls.
 struct Between {
   int first, second;  ///< pixels
   float share;        ///< of the second
 };
-Between between(double pixels, int n) {
-  const double from = std::floor(pixels - 0.5);
-  const auto i = static_cast<std::int64_t>(from);
-  return {wrapped(i, n), wrapped(i + 1, n), static_cast<float>(pixels - 0.5 - from)};
+/// `share` 0 .. 1 of the picture's width or height, which the picture repeats itself over.
+Between between(double share, int n) {
+  const double pixels = share * n + (n - 0.5);  // positive: a picture further
+  const int first = static_cast<int>(pixels);
+  const int inside = first >= n ? std::min(first - n, n - 1) : first;
+  return {inside, inside + 1 == n ? 0 : inside + 1, static_cast<float>(pixels - first)};
 }
 
 Vec3f mixed(const Vec3f& a, const Vec3f& b, double share) {
@@ -51,9 +49,9 @@ Vec3f PictureTexture::texel(int column, int row) const {
 }
 
 Vec3f PictureTexture::at(double u, double v) const {
-  const Between x = between((u - std::floor(u)) * picture_.width, picture_.width);
+  const Between x = between(u - std::floor(u), picture_.width);
   const double down = 1 - v;  // rows count from the top, v from the bottom
-  const Between y = between((down - std::floor(down)) * picture_.height, picture_.height);
+  const Between y = between(down - std::floor(down), picture_.height);
   const auto line = [&](int row) { return texel(x.first, row) * (1 - x.share) + texel(x.second, row) * x.share; };
   return line(y.first) * (1 - y.share) + line(y.second) * y.share;
 }

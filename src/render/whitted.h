@@ -1,8 +1,10 @@
 // The ray tracer (appendix A.1; Whitted 1980): light along a ray, with mirror and glass rays traced on.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "render/camera_rays.h"
 #include "render/environment.h"
 #include "render/gas_medium.h"
 #include "render/lights.h"
@@ -24,5 +26,7 @@ struct RayWorld {
 
 /// Light that arrives at the origin of a ray, scene-linear. `phase` (0 .. 1) shifts the samples taken in the gas.
 Vec3f radiance(const RayWorld& world, const Ray& ray, float phase);
+/// The same for a packet of rays, at most SceneGeometry::packet.
+void radiance(const RayWorld& world, std::span<const CameraRay> rays, std::span<Vec3f> light);
 
 }  // namespace brisance

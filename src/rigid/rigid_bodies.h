@@ -1,6 +1,7 @@
 // Rigid bodies: one array per field.
 #pragma once
 
+#include <compare>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,6 +9,27 @@
 #include "mesh/triangle_mesh.h"
 
 namespace brisance {
+
+/// Numbers of two bodies, the lower first.
+struct BodyPair {
+  std::uint32_t a = 0, b = 0;
+  friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
+};
+
+/// What one body pressed against another with in the last step: where the next step starts to solve from.
+struct PressingForce {
+  BodyPair pair;  ///< not ordered: as the contact has them
+  Vec3d place;    ///< [m]
+  Vec3d force;    ///< on pair.b [N]
+};
+
+/// Where two pieces of a body hold together.
+struct BodyBond {
+  std::uint32_t a = 0, b = 0;
+  Vec3d place, normal;  ///< [m] from a's centre of mass, and from a to b; in a's axes
+  double area = 0;      ///< [m2]
+  double strength = 0;  ///< [Pa]
+};
 
 struct RigidBodies {
   std::vector<std::string> name;
@@ -20,6 +42,11 @@ struct RigidBodies {
   std::vector<std::shared_ptr<const TriangleMesh>> mesh;  ///< about the centre of mass
   std::vector<double> area;                               ///< [m2] of the surface
   std::vector<double> releaseTime;                        ///< [s] rests in place until then
+  std::vector<std::uint32_t> origin;                      ///< which body of the scene it is a piece of
+  std::vector<BodyBond> bonds;
+  std::vector<std::uint8_t> holds;      ///< per bond; 0: it came loose
+  std::vector<BodyPair> passing;        ///< ordered: pass through each other until they come clear
+  std::vector<PressingForce> pressing;  ///< in the order of the contacts
 
   std::size_t size() const { return position.size(); }
   /// Moves at this time: neither immovable nor held.

@@ -24,9 +24,19 @@ struct Drag {
 struct Pressure {};
 using GasPush = std::variant<Drag, Pressure>;
 
+/// Bodies pass through one another, as in the thesis.
+struct NoCollisions {};
+/// Bodies stop one another (collide.h).
+struct Contacts {
+  double friction = 0.6;     ///< Coulomb's coefficient
+  double restitution = 0.2;  ///< speed of parting over speed of meeting
+};
+using Collisions = std::variant<NoCollisions, Contacts>;
+
 struct RigidSettings {
   Vec3d gravity{0, -9.81, 0};  ///< [m/s2]
   GasPush push;
+  Collisions collisions;
 };
 
 }  // namespace brisance

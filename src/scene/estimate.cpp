@@ -24,13 +24,14 @@ constexpr double multigridMemory = 13 * field;  // six vectors and seven entries
 constexpr double gradientMemory = 8 * field;    // four vectors in double precision
 constexpr double movingMemory = 20 * field;     // where moving bodies block gas: what faces and cells are, twice
 constexpr double depositMemory = field + 1;     // among solids: what is inside, and the share of a kernel in gas
-constexpr double writingMemory = 12 * field;    // the frame's velocity: bricks, leaves, packed, joined
+constexpr double writingMemory = 9 * field;     // the frame's packed velocity, and the checkpoint beside it
 constexpr double volumeCellMemory = 32;         // density and colour, and their copy while blurring
 constexpr double particleMemory =
-    300;  // fields 83 and as much again to sort or to save, deposits 70, the frame and its file 66
+    445;  // fields 83, to sort 83 and to save 83, deposits 70, the frame and its file 66, and what these leave free
 constexpr double pixelMemory = 32;         // colour and weights in single precision, and the encoded picture
 constexpr double baseMemory = 45e6;        // the program and its libraries
 constexpr double pieceBytes = 20e3;        // a shard's mesh of some hundred triangles, on disk and in memory
+constexpr double hullBytes = 40e3;         // where bodies collide: a piece's convex parts, and where they are now
 constexpr double gasCellDisk = 24;         // three scalars and a vector, before compression
 constexpr double particleDisk = 33;        // position, velocity, mass, temperature, kind
 constexpr double posedPieceDisk = 100;     // pose and velocities, per frame
@@ -56,7 +57,9 @@ double gasCellMemory(const SimulationSettings& s) {
 }
 
 double simulatingMemory(const Scene& scene, const SceneEstimate& cost) {
-  return static_cast<double>(cost.cells) * gasCellMemory(scene.simulation) +
+  const bool collide = std::holds_alternative<Contacts>(scene.simulation.rigid.collisions);
+  return (collide ? static_cast<double>(cost.pieces) * hullBytes : 0) +
+         static_cast<double>(cost.cells) * gasCellMemory(scene.simulation) +
          static_cast<double>(cost.particles) * particleMemory;
 }
 

@@ -177,6 +177,20 @@ void describeMaterial(KeyVisitor& v, MaterialKeys& keys) {
   visit(v, {"absorption", "1/m", between(0, brightest), "inside glass"}, material.absorption);
   visit(v, {"smooth", "", anyValue, "normals go smoothly between vertices"}, material.smooth);
   visit(v, {"casts_shadow", "", anyValue, "false lets light through"}, material.castsShadow);
+  visit(v, {"piece_tint", "", between(0, 1), "how far the hues of pieces with one colour lie apart"},
+        material.pieceTint);
+  visit(v,
+        {"glow", "", between(0, brightest), "times the blackbody colour of a piece's temperature, it shines with that"},
+        material.glow);
+}
+
+void describeFlow(KeyVisitor& v, FlowSettings& flow) {
+  visit(v, {"drawn", "", anyValue, "true draws them"}, flow.drawn);
+  visit(v, {"lower", "m", anyValue, "corner of the box that they fill; it may be flat"}, flow.lower);
+  visit(v, {"upper", "m", anyValue, "opposite corner"}, flow.upper);
+  visit(v, {"spacing", "m", above(0), "between arrows"}, flow.spacing);
+  visit(v, {"seconds", "s", above(0), "of the gas' way that an arrow is long"}, flow.seconds);
+  visit(v, {"colour", "", between(0, brightest), "of the arrows; they cast no shadow"}, flow.colour);
 }
 
 void describeLight(KeyVisitor& v, Light& light) { visitAlternatives(v, lightNames, light, LightKeys{}); }
@@ -210,6 +224,7 @@ void describeRender(KeyVisitor& v, SceneDraft& draft) {
     describeLattice(inner, whole.volume, {"vx, vy, vz", "5.1, 5.3"});
     describeVolumeLook(inner, whole.scene.render.volume);
   });
+  visitTable(v, "flow", "the gas' velocity, drawn as arrows", render.flow, describeFlow);
 }
 
 }  // namespace brisance

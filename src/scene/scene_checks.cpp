@@ -146,6 +146,8 @@ void checkBody(const BodySettings& body, const std::string& path, const Places& 
   if (rectangle && body.moves) places.refuse(path + ".moves", "must be false: a rectangle is scenery");
   if (body.blocksGas && (body.moves || rectangle))
     places.refuse(path + ".blocks_gas", "must be false: only solid scenery (moves = false, no rectangle) blocks gas");
+  if (body.swells && (!body.moves || body.fracture.solid.enabled || std::holds_alternative<PaneSettings>(body.shape)))
+    places.refuse(path + ".swells", "must be false: only a hollow body that moves swells, no pane and no solid pieces");
   checkFracture(body, path + ".fracture", places);
 }
 
@@ -155,6 +157,8 @@ void checkBodies(const Scene& scene, const Places& places) {
     const BodySettings& body = scene.simulation.bodies[i];
     const std::string path = places.elementPath("bodies", body.name, i);
     checkBody(body, path, places);
+    if (body.swells && scene.simulation.bodiesInGas == BodiesInGas::block)
+      places.refuse(path + ".swells", "must be false where gas.bodies is block: gas passes through what it swells");
     if (!names.insert(body.name).second)
       places.refuse(path + ".name", fmt::format("must be unique, \"{}\" is there twice", body.name));
     if (scene.render.materials.count(body.material) != 0) continue;
@@ -163,6 +167,21 @@ void checkBodies(const Scene& scene, const Places& places) {
     places.refuse(path + ".material", fmt::format("must name one of the materials ({}), got \"{}\"",
                                                   quoted(joined(known, ", ")), quoted(body.material)));
   }
+}
+
+void checkFlow(const Scene& scene, const Places& places) {
+  const FlowSettings& flow = scene.render.flow;
+  if (!flow.drawn) return;
+  constexpr double mostArrows = 1e5;
+  double arrows = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (flow.upper[axis] < flow.lower[axis])
+      places.refuse("render.flow.upper",
+                    fmt::format("must not lie below lower, {} [m], got {}", shown(flow.lower), shown(flow.upper)));
+    arrows *= 1 + (flow.upper[axis] - flow.lower[axis]) / flow.spacing;
+  }
+  if (arrows > mostArrows)
+    places.refuse("render.flow.spacing", fmt::format("must leave at most {:g} arrows, got {:.3g}", mostArrows, arrows));
 }
 
 void checkPicture(const Scene& scene, const Places& places) {
@@ -177,6 +196,7 @@ void checkPicture(const Scene& scene, const Places& places) {
     places.refuse("render.denoise", "must be false unless render.integrator is path: the other has no noise of chance");
   if (scene.render.denoise && scene.render.samples < 2)
     places.refuse("render.denoise", "needs render.samples of at least 2: half of them judge the other half");
+  checkFlow(scene, places);
   for (std::size_t i = 0; i < scene.render.lights.size(); ++i) {
     const auto* sun = std::get_if<SunLight>(&scene.render.lights[i]);
     if (sun != nullptr && length(sun->direction) == 0)

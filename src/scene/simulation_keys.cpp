@@ -11,6 +11,7 @@ constexpr const char* faceKeys[] = {"x_lower", "x_upper", "y_lower", "y_upper", 
 constexpr std::string_view advectionNames[] = {"donor_cell", "maccormack", "semi_lagrangian"};
 constexpr std::string_view pressureNames[] = {"auto", "fast_poisson", "multigrid", "conjugate_gradient"};
 constexpr std::string_view pushNames[] = {"drag", "pressure"};
+constexpr std::string_view collisionNames[] = {"none", "contacts"};
 constexpr std::string_view bodiesInGasNames[] = {"pass", "block"};
 constexpr std::string_view quadratureNames[] = {"area_quadrature", "vertex_sum"};
 constexpr std::string_view shapeNames[] = {"sphere", "box", "rectangle", "mesh", "pane"};
@@ -19,7 +20,7 @@ constexpr std::string_view patternNames[] = {"uniform", "blue_noise", "impact"};
 constexpr std::string_view triangulationNames[] = {"trisection", "delaunay"};
 constexpr std::string_view splitNames[] = {"list", "level"};
 constexpr std::string_view curvatureWeightNames[] = {"clipped", "raw"};
-constexpr std::string_view insideNames[] = {"all", "smallest"};
+constexpr std::string_view insideNames[] = {"all", "smallest", "largest"};
 constexpr std::string_view edgeWeightNames[] = {"unit", "length"};
 
 void describeFaces(KeyVisitor& v, Faces& faces) {
@@ -64,7 +65,13 @@ void describeVelocityTolerance(KeyVisitor& v, double& tolerance) {
         tolerance);
 }
 
-void describePressure(KeyVisitor& v, AutomaticSolver& solver) { describeVelocityTolerance(v, solver.tolerance); }
+void describePressure(KeyVisitor& v, AutomaticSolver& solver) {
+  describeVelocityTolerance(v, solver.tolerance);
+  visit(v,
+        {"patience", "", between(1, 1e6),
+         "iterations of fast_poisson among solids, after which multigrid goes on from there"},
+        solver.patience);
+}
 void describePressure(KeyVisitor& v, FastPoisson& solver) {
   describeVelocityTolerance(v, solver.tolerance);
   visit(v, {"max_iterations", "", between(1, 1e6), giveUp}, solver.maxIterations);
@@ -239,6 +246,8 @@ void describeBodyPlace(KeyVisitor& v, BodyKeys& keys) {
   visit(v, {"moves", "", anyValue, "false for scenery", {}, "true; false for a rectangle"}, keys.moves);
   visit(v, {"blocks_gas", "", anyValue, "scenery that gas flows around"}, keys.body.blocksGas);
   visit(v, {"release_time", "s", atLeast(0), "until then it rests in place; simulated time"}, keys.body.releaseTime);
+  visit(v, {"swells", "", anyValue, "until its release gas carries the vertices of its surface: a balloon"},
+        keys.body.swells);
 }
 
 void describeBodyMass(KeyVisitor& v, BodyKeys& keys) {
@@ -288,6 +297,12 @@ void describePush(KeyVisitor& v, Drag& push) {
         push.smallPieceFavour);
 }
 void describePush(KeyVisitor&, Pressure&) {}
+
+void describeCollisions(KeyVisitor&, NoCollisions&) {}
+void describeCollisions(KeyVisitor& v, Contacts& contacts) {
+  visit(v, {"friction", "", between(0, 10), "Coulomb's coefficient, of all bodies"}, contacts.friction);
+  visit(v, {"restitution", "", between(0, 1), "speed of parting over speed of meeting"}, contacts.restitution);
+}
 
 void describeFracture(KeyVisitor& v, FractureSettings& fracture) {
   v.enter({"method", "", anyValue, "how pieces are chosen"}, true);
@@ -349,6 +364,13 @@ void describeRigid(KeyVisitor& v, RigidSettings& rigid) {
   v.enter(push, true);
   visitAlternatives(v, pushNames, rigid.push, [](KeyVisitor& inner, auto& kind) { describePush(inner, kind); });
   v.leave();
+  Key collisions{"collisions", "", anyValue,
+                 "none: bodies pass through one another, as in the thesis; contacts: they stop one another"};
+  collisions.fallback = "none";
+  v.enter(collisions, true);
+  visitAlternatives(v, collisionNames, rigid.collisions,
+                    [](KeyVisitor& inner, auto& kind) { describeCollisions(inner, kind); });
+  v.leave();
 }
 
 void describeBody(KeyVisitor& v, BodyKeys& keys) {
@@ -364,6 +386,19 @@ void describeBody(KeyVisitor& v, BodyKeys& keys) {
   visit(v, {"material", "", anyValue, "name of one of the materials"}, keys.body.material);
   describeBodyMass(v, keys);
   visit(v, {"temperature", "K", atLeast(0), "of the body"}, keys.body.temperature);
+  visit(v,
+        {"warming_time",
+         "s",
+         atLeast(0),
+         "in which a piece comes to the mean temperature of the gas at its surface, to 1/e",
+         {},
+         "none: it keeps its temperature"},
+        keys.body.warmingTime);
+  visit(v,
+        {"bond_strength", "Pa", atLeast(0),
+         "tension, shear and bending between pieces at which they come apart; until then they move as one; 0: they are "
+         "apart from the start"},
+        keys.body.bondStrength);
   visitTable(v, "fracture", "how it breaks, before time starts", keys.body.fracture, describeFracture);
 }
 

@@ -7,26 +7,35 @@
 namespace brisance {
 
 namespace {
-/// Values closer to the background than this are the background: still air need not fill a disk.
-struct Quiet {
-  static constexpr float kelvin = 0.05f;
-  static constexpr float density = 1e-6f;   // [kg/m3]
-  static constexpr float velocity = 1e-4f;  // [m/s]
-};
+/// A frame's values are multiples of these, powers of two: what nobody sees need not fill a disk. Near still air they
+/// are the background.
+constexpr float kelvinStep = 0x1p-4f, densityStep = 0x1p-20f;  // [K], [kg/m3]
 
-SparseGrid<float> sparse(const Grid3<float>& grid, float background, float quiet) {
+/// [m/s] Carried with it for a frame, nothing is off by more than a two-thousandth of a cell.
+float velocityStep(double cellSize, double frameTime) {
+  constexpr int finer = -10;
+  return std::ldexp(1.0f, std::ilogb(cellSize / frameTime) + finer);
+}
+
+/// The nearest multiple. Larger numbers, which are coarser than that, stay as they are.
+inline float roundTo(float step, float value) {
+  const float shift = 0x1.8p23f * step;  // next to it numbers have that step
+  return std::abs(value) < 0x1p22f * step ? (value + shift) - shift : value;
+}
+
+SparseGrid<float> sparse(const Grid3<float>& grid, float background, float step) {
   return makeSparse(grid, background, [&](int i, int j, int k) {
     const float value = grid(i, j, k);
-    return std::abs(value - background) < quiet ? background : value;
+    return std::abs(value - background) < step ? background : roundTo(step, value);
   });
 }
 
-SparseGrid<Vec3f> centreVelocities(const FluidState& gas) {
+SparseGrid<Vec3f> centreVelocities(const FluidState& gas, float step) {
   const MacVelocity& m = gas.velocity;
   return makeSparse(gas.pressure, Vec3f{}, [&](int i, int j, int k) {
-    const Vec3f v{0.5f * (m.u(i, j, k) + m.u(i + 1, j, k)), 0.5f * (m.v(i, j, k) + m.v(i, j + 1, k)),
-                  0.5f * (m.w(i, j, k) + m.w(i, j, k + 1))};
-    return length(v) >= Quiet::velocity ? v : Vec3f{};
+    return Vec3f{roundTo(step, 0.5f * (m.u(i, j, k) + m.u(i + 1, j, k))),
+                 roundTo(step, 0.5f * (m.v(i, j, k) + m.v(i, j + 1, k))),
+                 roundTo(step, 0.5f * (m.w(i, j, k) + m.w(i, j, k + 1)))};
   });
 }
 
@@ -62,10 +71,10 @@ Frame captureFrame(const WorldState& world, const SimulationSettings& settings) 
   frame.time = world.time;
   frame.report = world.report;
   const FluidState& gas = world.gas;
-  frame.gas.density = sparse(gas.soot, 0, Quiet::density);
-  frame.gas.flame = sparse(gas.flame, 0, Quiet::density);
-  frame.gas.temperature = sparse(gas.temperature, static_cast<float>(settings.fluid.ambientTemperature), Quiet::kelvin);
-  frame.gas.velocity = centreVelocities(gas);
+  frame.gas.density = sparse(gas.soot, 0, densityStep);
+  frame.gas.flame = sparse(gas.flame, 0, densityStep);
+  frame.gas.temperature = sparse(gas.temperature, static_cast<float>(settings.fluid.ambientTemperature), kelvinStep);
+  frame.gas.velocity = centreVelocities(gas, velocityStep(settings.fluid.cellSize, settings.frameTime));
   frame.particles = captureParticles(world.particles);
   const RigidBodies& b = world.bodies;
   for (std::size_t n = 0; n < b.size(); ++n)
@@ -76,7 +85,8 @@ Frame captureFrame(const WorldState& world, const SimulationSettings& settings) 
                             b.linearVelocity[n],
                             b.angularVelocity[n],
                             world.looks[n].temperature,
-                            world.looks[n].moves});
+                            world.looks[n].moves,
+                            world.looks[n].shapeFrame});
   return frame;
 }
 

@@ -2,10 +2,12 @@
 
 #include <cstring>
 
+#include "rigid/swelling.h"
+
 namespace brisance {
 
 namespace {
-constexpr char magic[16] = "brisance-ckpt-1";
+constexpr char magic[16] = "brisance-ckpt-2";
 
 class Writer {
  public:
@@ -84,6 +86,27 @@ class Reader {
   std::size_t at_ = 0;
 };
 
+/// Shapes of bodies that swell or have swollen.
+template <class Archive>
+void archiveShapes(Archive& a, const WorldState& world) {
+  for (std::size_t b = 0; b < world.bodies.size(); ++b)
+    if (world.looks[b].deforms) a.array(world.bodies.mesh[b]->vertices);
+}
+void archiveShapes(Reader& reader, WorldState& world) {
+  RigidBodies& bodies = world.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const BodyLook& look = world.looks[b];
+    if (!look.deforms) continue;
+    TriangleMesh mesh = *bodies.mesh[b];
+    reader.fixedArray(mesh.vertices);
+    if (look.shapeFrame > 0) mesh.normals.clear();
+    if (look.shapeFrame > 0 && !look.swelling)
+      setHollowShape(bodies, b, std::move(mesh));
+    else
+      bodies.mesh[b] = std::make_shared<const TriangleMesh>(std::move(mesh));
+  }
+}
+
 /// The order of fields, once for both directions. Solids are not in it: they come from the settings.
 template <class Archive, class State>
 void archive(Archive& a, State& world) {
@@ -104,6 +127,15 @@ void archive(Archive& a, State& world) {
   a.fixedArray(bodies.orientation);
   a.fixedArray(bodies.linearVelocity);
   a.fixedArray(bodies.angularVelocity);
+  a.fixedArray(bodies.holds);
+  a.array(bodies.passing);
+  a.array(bodies.pressing);
+  for (auto& look : world.looks) {
+    a.value(look.temperature);
+    a.value(look.swelling);
+    a.value(look.shapeFrame);
+  }
+  archiveShapes(a, world);
 }
 }  // namespace
 
@@ -123,6 +155,9 @@ void readCheckpoint(const std::string& bytes, const std::string& fileName, World
   reader.value(start);
   if (std::memcmp(start, magic, sizeof magic) != 0) reader.refuse("is of another version of Brisance");
   archive(reader, world);
+  for (const BodyPair& pair : world.bodies.passing)
+    if (pair.a >= world.bodies.size() || pair.b >= world.bodies.size())
+      reader.refuse("names bodies that are not there");
   if (!reader.atEnd()) reader.refuse("has bytes left over");
   for (std::size_t size : {world.particles.position.size(), world.particles.mass.size(), world.particles.kind.size()})
     if (size != world.particles.size()) reader.refuse("holds particles of different counts");

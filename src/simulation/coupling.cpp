@@ -1,9 +1,15 @@
 #include "simulation/coupling.h"
 
+#include <algorithm>
+#include <set>
+
 #include "base/parallel.h"
 #include "base/vector_path.h"
+#include "grid/interpolate.h"
 #include "particles/burning.h"
 #include "particles/particle_step.h"
+#include "rigid/contacts.h"
+#include "rigid/swelling.h"
 
 namespace brisance {
 
@@ -39,9 +45,56 @@ void burnIntoGas(WorldState& world, const SimulationSettings& settings, double d
 }
 
 void carryParticles(WorldState& world, const SimulationSettings& settings, double dt) {
-  const GasAround around{world.gas.velocity, world.gas.temperature, world.gas.solid.openShare};
+  GasAround around{world.gas.velocity, world.gas.temperature, world.gas.solid.openShare};
+  for (int axis = 0; axis < 3; ++axis) around.periodic[axis] = settings.fluid.faces[2 * axis] == FaceKind::periodic;
   stepParticles(world.particles, around, settings.particles.burning, dt);
   ignite(world.particles, settings.particles.burning);
+}
+
+namespace {
+/// Bodies that have just become rigid touch their neighbours as pieces do at the start, and pass through them.
+void collideAsTheyAre(WorldState& world, const std::vector<bool>& stiffened) {
+  RigidBodies& bodies = world.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (stiffened[b]) world.shapes[b] = movingShape(*bodies.mesh[b]);
+  std::set<BodyPair> passing(bodies.passing.begin(), bodies.passing.end());
+  for (const BodyPair& pair : passingPairs(bodies, world.shapes))
+    if (stiffened[pair.a] && stiffened[pair.b]) passing.insert(pair);
+  bodies.passing.assign(passing.begin(), passing.end());
+}
+}  // namespace
+
+void swellBodies(WorldState& world, double dt) {
+  RigidBodies& bodies = world.bodies;
+  std::vector<bool> stiffened(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    BodyLook& look = world.looks[b];
+    if (!look.swelling) continue;
+    look.shapeFrame = world.frame + 1;
+    look.swelling = !bodies.isFree(b, world.time);
+    const Pose pose{bodies.position[b], bodies.orientation[b]};
+    stiffened[b] = !look.swelling;
+    if (stiffened[b])
+      stiffen(bodies, b, world.gas.velocity);
+    else
+      bodies.mesh[b] =
+          std::make_shared<const TriangleMesh>(carriedByGas(*bodies.mesh[b], pose, world.gas.velocity, dt));
+  }
+  const bool any = std::find(stiffened.begin(), stiffened.end(), true) != stiffened.end();
+  if (any && !world.shapes.empty()) collideAsTheyAre(world, stiffened);
+}
+
+void warmBodies(WorldState& world, double dt) {
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    BodyLook& look = world.looks[b];
+    if (!look.warmingTime) continue;
+    const Pose pose{world.bodies.position[b], world.bodies.orientation[b]};
+    double sum = 0;
+    for (const Vec3d& vertex : world.bodies.mesh[b]->vertices) sum += interpolate(world.gas.temperature, pose * vertex);
+    const double around = sum / static_cast<double>(world.bodies.mesh[b]->vertices.size());
+    const double kept = *look.warmingTime > 0 ? portableExp(-dt / *look.warmingTime) : 0;
+    look.temperature = around + (look.temperature - around) * kept;
+  }
 }
 
 namespace {
@@ -91,6 +144,7 @@ void blockGas(WorldState& world, const SimulationSettings& settings, bool anew) 
     world.stamper->stampMoving(solids, world.gas.solid);
   else
     moveSolids(world.gas, solids, settings.fluid, *world.stamper);
+  world.limits.reset();
 }
 
 double expectedSource(const WorldState& world, const SimulationSettings& settings) {

@@ -9,6 +9,10 @@ namespace brisance {
 void burnIntoGas(WorldState& world, const SimulationSettings& settings, double dt);
 /// The gas moves and heats particles.
 void carryParticles(WorldState& world, const SimulationSettings& settings, double dt);
+/// Gas carries the vertices of bodies that swell, and makes them rigid when they are released.
+void swellBodies(WorldState& world, double dt);
+/// Bodies take up the temperature of the gas at their surfaces.
+void warmBodies(WorldState& world, double dt);
 /// Lets pressure move the bodies that are free now, in the gas' next step.
 void releaseBodies(WorldState& world, const SimulationSettings& settings);
 /// Bodies have the velocities that the gas' pressure gave them.

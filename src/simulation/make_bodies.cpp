@@ -27,6 +27,8 @@ FracturedBody breakShape(const MeshShape& shape, const FractureSettings& fractur
     mesh = std::move(repaired.mesh);
   }
   for (Vec3d& v : mesh.vertices) v *= shape.scale;
+  const bool breaks = fracture.pieces > 1;  // cuts that have not opened shall not be seen in the shading
+  if (breaks && mesh.normals.empty()) mesh.normals = vertexNormals(mesh);
   return fractureMesh(mesh, fracture, shape.shellThickness);
 }
 FracturedBody breakShape(const PaneSettings& pane, const FractureSettings& fracture, std::uint64_t seed) {
@@ -44,8 +46,8 @@ double massOf(const Piece& piece, const MassRule& rule, double wholeVolume) {
   return std::visit(Rule{piece, wholeVolume}, rule);
 }
 
-void addPiece(const BodySettings& settings, const Piece& piece, const std::string& name, double mass,
-              WorldState& world) {
+void addPiece(const BodySettings& settings, std::uint32_t origin, const Piece& piece, const std::string& name,
+              double mass, WorldState& world) {
   RigidBodies& bodies = world.bodies;
   const bool moves = settings.moves;
   if (moves && !(mass > 0))
@@ -61,7 +63,21 @@ void addPiece(const BodySettings& settings, const Piece& piece, const std::strin
   bodies.mesh.push_back(std::make_shared<const TriangleMesh>(piece.mesh));
   bodies.area.push_back(piece.properties.area);
   bodies.releaseTime.push_back(settings.releaseTime);
-  world.looks.push_back({settings.material, settings.temperature, moves});
+  bodies.origin.push_back(origin);
+  world.looks.push_back(
+      {settings.material, settings.temperature, moves, settings.warmingTime, settings.swells, settings.swells, 0});
+}
+/// Joins the pieces that were added last.
+void addBonds(const BodySettings& settings, const FracturedBody& broken, RigidBodies& bodies) {
+  if (settings.bondStrength == 0 || !settings.moves) return;
+  const auto first = static_cast<std::uint32_t>(bodies.size() - broken.pieces.size());
+  for (const Bond& bond : broken.bonds) {
+    if (!(bond.area > 0)) continue;
+    const std::uint32_t a = first + static_cast<std::uint32_t>(bond.a), b = first + static_cast<std::uint32_t>(bond.b);
+    bodies.bonds.push_back(
+        {a, b, bond.place - broken.pieces[bond.a].place, bond.normal, bond.area, settings.bondStrength});
+    bodies.holds.push_back(1);
+  }
 }
 }  // namespace
 
@@ -77,17 +93,19 @@ std::string pieceName(const std::string& body, std::size_t piece, std::size_t pi
 
 std::vector<MovingSolid> makeBodies(const SimulationSettings& settings, WorldState& world) {
   std::vector<MovingSolid> solids;
-  for (const BodySettings& body : settings.bodies) {
+  for (std::uint32_t number = 0; number < settings.bodies.size(); ++number) {
+    const BodySettings& body = settings.bodies[number];
     const FracturedBody broken = breakBody(body, settings.seed);
     double volume = 0;
     for (const Piece& piece : broken.pieces) volume += piece.properties.volume;
     for (std::size_t n = 0; n < broken.pieces.size(); ++n) {
       const std::string name = pieceName(body.name, n, broken.pieces.size());
-      addPiece(body, broken.pieces[n], name, massOf(broken.pieces[n], body.mass, volume), world);
+      addPiece(body, number, broken.pieces[n], name, massOf(broken.pieces[n], body.mass, volume), world);
       if (body.blocksGas)
         solids.push_back(
             {world.bodies.mesh.back(), {world.bodies.position.back(), world.bodies.orientation.back()}, {}, {}});
     }
+    addBonds(body, broken, world.bodies);
   }
   return solids;
 }

@@ -3,28 +3,20 @@
 #include "base/memory.h"
 #include "base/stopwatch.h"
 #include "frame/gltf_export.h"
+#include "simulation/run_writer.h"
 #include "simulation/world_state.h"
 
 namespace brisance {
 
 namespace {
-std::string checkpointName(int frame) { return frameFile("checkpoints", "checkpoint", frame, "bin"); }
-
 int frameOfCheckpoint(const std::string& name) {
   const std::size_t dot = name.find('.');
   return dot == std::string::npos ? 0 : std::atoi(name.c_str() + dot + 1);
 }
 
-std::vector<std::string> checkpoints(const RunDirectory& run) {
-  std::vector<std::string> names;
-  for (const auto& [name, entry] : run.manifest())
-    if (name.starts_with("checkpoints/")) names.push_back(name);
-  return names;
-}
-
 /// Puts the world at the newest checkpoint that is whole and has all frames before it.
 void continueFrom(RunDirectory& run, World& world) {
-  const std::vector<std::string> names = checkpoints(run);
+  const std::vector<std::string> names = checkpointsOf(run);
   for (auto name = names.rbegin(); name != names.rend(); ++name) {
     const std::filesystem::path file = run.path() / *name;
     if (frameOfCheckpoint(*name) > run.lastFrame() || !std::filesystem::exists(file)) continue;
@@ -36,21 +28,14 @@ void continueFrom(RunDirectory& run, World& world) {
   }
 }
 
-/// Writes this frame's checkpoint, then forgets the older ones but the last `keep`.
-void saveCheckpoint(RunDirectory& run, const World& world, std::size_t keep) {
-  run.add(checkpointName(world.frameIndex()), world.checkpoint());
-  std::vector<std::string> names = checkpoints(run);
-  names.resize(names.size() > keep ? names.size() - keep : 0);
-  if (!names.empty()) run.remove(names);
-}
-
 /// One frame; where it fails, with the name of what is left to go back to.
-void advanceFrom(const RunDirectory& run, World& world) {
+void advanceFrom(const RunDirectory& run, RunWriter& writer, World& world) {
   try {
     world.advance();
   } catch (const Error& error) {
     if (error.code != ExitCode::unstable) throw;
-    const std::vector<std::string> names = checkpoints(run);
+    writer.wait();
+    const std::vector<std::string> names = checkpointsOf(run);
     throw Error(error.code,
                 fmt::format("{}; {}", error.what(),
                             names.empty() ? "there is no checkpoint yet"
@@ -67,15 +52,33 @@ void summarise(const World& world, SimulationSummary& summary) {
   summary.substeps = static_cast<int>(totals.substeps);
 }
 
-/// A frame's files, with the seconds it took.
-void writeFrame(RunDirectory& run, const World& world, SimulationSummary& summary) {
+constexpr std::size_t keptWhileRunning = 2, keptWhenDone = 1;  // checkpoints
+
+/// Hands a frame over to be written; counts the seconds in which nothing is simulated for it.
+void writeFrame(RunWriter& writer, const World& world, const SimulationSettings& settings, int last,
+                SimulationSummary& summary) {
   Stopwatch watch;
+  writer.wait();  // first, so that the memory of one frame suffices
+  releaseFreedMemory();
+  const bool done = world.frameIndex() == last, checkpoint = done || world.frameIndex() % settings.checkpointEvery == 0;
+  FrameToWrite files{world.frameIndex(), {}, {}, done ? keptWhenDone : keptWhileRunning};
   {
     const Frame frame = world.capture();
-    run.addFrame(frame);
     for (const auto& [stage, seconds] : frame.report.stageSeconds) summary.stageSeconds[stage] += seconds;
+    files.files = filesOf(frame);
   }
-  releaseFreedMemory();
+  if (checkpoint) files.checkpoint = world.checkpoint();
+  writer.write(std::move(files));
+  summary.stageSeconds["write"] += watch.lap();
+}
+
+/// What is still on its way; then there is a checkpoint of this moment.
+void finishWriting(RunDirectory& run, RunWriter& writer, const World& world, SimulationSummary& summary) {
+  Stopwatch watch;
+  writer.wait();
+  const std::vector<std::string> names = checkpointsOf(run);
+  if (names.empty() || frameOfCheckpoint(names.back()) != world.frameIndex())
+    saveCheckpoint(run, world.frameIndex(), world.checkpoint(), summary.interrupted ? keptWhileRunning : keptWhenDone);
   summary.stageSeconds["write"] += watch.lap();
 }
 }  // namespace
@@ -87,23 +90,21 @@ SimulationSummary simulate(const SimulationSettings& settings, RunDirectory& run
   World world(settings);
   summary.stageSeconds["fracture"] = watch.lap();
   if (run.manifest().contains("pieces.glb")) continueFrom(run, world);
+  RunWriter writer(run);
   if (world.frameIndex() == 1) {
     run.add("pieces.glb", piecesToGlb(world.capture().bodies));
-    writeFrame(run, world, summary);
+    writeFrame(writer, world, settings, last, summary);
   }
-  constexpr std::size_t whileRunning = 2, whenDone = 1;
   while (world.frameIndex() < last) {
     if (options.progress) options.progress("simulate", world.frameIndex(), last);
     if (options.stopRequested && options.stopRequested()) {
       summary.interrupted = true;
       break;
     }
-    advanceFrom(run, world);
-    writeFrame(run, world, summary);
-    if (world.frameIndex() % settings.checkpointEvery == 0 && world.frameIndex() < last)
-      saveCheckpoint(run, world, whileRunning);
+    advanceFrom(run, writer, world);
+    writeFrame(writer, world, settings, last, summary);
   }
-  saveCheckpoint(run, world, summary.interrupted ? whileRunning : whenDone);
+  finishWriting(run, writer, world, summary);
   if (options.progress && !summary.interrupted) options.progress("simulate", last, last);
   summary.frames = run.lastFrame();
   summarise(world, summary);

@@ -54,8 +54,11 @@ struct BodySettings {
   bool blocksGas = false;  ///< only for scenery
   MassRule mass;
   FractureSettings fracture;
-  double releaseTime = 0;    ///< [s] until then it rests in place
-  double temperature = 300;  ///< [K]
+  double releaseTime = 0;             ///< [s] until then it rests in place
+  bool swells = false;                ///< until then gas carries its vertices instead
+  double temperature = 300;           ///< [K]
+  std::optional<double> warmingTime;  ///< [s] in which it comes to the gas' temperature, to 1/e; none: it keeps its own
+  double bondStrength = 0;            ///< [Pa] at which its pieces come apart; 0: they are apart from the start
 };
 
 /// pass: gas goes through bodies that move, as in the thesis. block: they stop it, and carry it.

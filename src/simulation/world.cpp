@@ -5,6 +5,8 @@
 
 #include "fluid/solid_fractions.h"
 #include "particles/burning.h"
+#include "rigid/collide.h"
+#include "rigid/contacts.h"
 #include "rigid/gas_push.h"
 #include "rigid/rigid_step.h"
 #include "simulation/capture.h"
@@ -37,21 +39,37 @@ void record(const FluidReport& step, StepReport& report) {
   report.heat += step.heat;
 }
 
+const StepLimits& limitsOfGas(WorldState& world) {
+  if (!world.limits) world.limits = limitsOf(world.gas);
+  return *world.limits;
+}
+
+void stepGas(WorldState& world, const SimulationSettings& s, double dt) {
+  const FluidReport step =
+      stepFluid(world.gas, s.fluid, s.particles.burning.sootPerMass, dt, world.scratch, limitsOfGas(world));
+  world.limits = step.next;
+  record(step, world.report);
+}
+
 /// burn; stepFluid; stepParticles; pushBodies; stepBodies; blockGas.
 void substep(WorldState& world, const SimulationSettings& s, double dt) {
   StepReport& report = world.report;
   const bool block = s.bodiesInGas == BodiesInGas::block;
   timed(report, "burn", [&] { burnIntoGas(world, s, dt); });
   if (block) releaseBodies(world, s);
-  timed(report, "gas",
-        [&] { record(stepFluid(world.gas, s.fluid, s.particles.burning.sootPerMass, dt, world.scratch), report); });
+  timed(report, "gas", [&] { stepGas(world, s, dt); });
   timed(report, "particles", [&] { carryParticles(world, s, dt); });
   timed(report, "bodies", [&] {
+    swellBodies(world, dt);
+    warmBodies(world, dt);
     if (const auto* drag = std::get_if<Drag>(&s.rigid.push))
       pushBodies(world.bodies, world.gas.velocity, *drag, world.time, dt);
     else
       takePush(world);
-    stepBodies(world.bodies, s.rigid, world.time, dt);
+    if (std::holds_alternative<Contacts>(s.rigid.collisions) || !world.bodies.bonds.empty())
+      stepColliding(world.bodies, world.shapes, s.rigid, world.time, dt);
+    else
+      stepBodies(world.bodies, s.rigid, world.time, dt);
   });
   if (block) timed(report, "solids", [&] { blockGas(world, s, false); });
   world.time += dt;
@@ -96,6 +114,11 @@ void addToTotals(const StepReport& report, RunTotals& totals) {
 
 World::World(SimulationSettings settings) : settings_(std::move(settings)), state_(std::make_unique<WorldState>()) {
   const std::vector<MovingSolid> solids = makeBodies(settings_, *state_);
+  const bool collide = std::holds_alternative<Contacts>(settings_.rigid.collisions);
+  if (collide || !state_->bodies.bonds.empty()) state_->shapes = collisionShapes(state_->bodies);
+  if (collide) {
+    state_->bodies.passing = passingPairs(state_->bodies, state_->shapes);
+  }
   SolidStamper stamper(settings_.fluid, solids);
   state_->gas = makeFluid(settings_.fluid, stamper.fixed(), settings_.seed);
   if (settings_.bodiesInGas == BodiesInGas::block) {
@@ -116,7 +139,8 @@ void World::advance() {
   timed(world.report, "particles", [&] { sortByRow(world.particles, world.gas.burnRate, world.order); });
   const double sliver = 1e-9 * settings_.frameTime;
   while (world.time < end - sliver) {
-    const double longest = longestStep(world.gas, settings_.fluid, expectedSource(world, settings_));
+    const double longest =
+        longestStep(world.gas, settings_.fluid, expectedSource(world, settings_), limitsOfGas(world));
     const double left = end - world.time;
     substep(world, settings_, left / std::ceil(left / std::min(longest, left)));
     refuseBrokenState(world, settings_);
@@ -132,6 +156,9 @@ const RunTotals& World::totals() const { return state_->totals; }
 std::string World::checkpoint() const { return writeCheckpoint(*state_); }
 void World::restore(const std::string& bytes, const std::string& fileName) {
   readCheckpoint(bytes, fileName, *state_);
+  for (std::size_t b = 0; b < state_->shapes.size(); ++b)
+    if (state_->looks[b].shapeFrame > 0) state_->shapes[b] = movingShape(*state_->bodies.mesh[b]);
+  state_->limits.reset();
   if (state_->stamper) blockGas(*state_, settings_, true);
 }
 

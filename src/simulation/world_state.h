@@ -8,6 +8,7 @@
 #include "particles/deposit.h"
 #include "particles/particle_order.h"
 #include "particles/particle_set.h"
+#include "rigid/collision_shapes.h"
 #include "rigid/rigid_bodies.h"
 #include "simulation/world.h"
 
@@ -18,6 +19,10 @@ struct BodyLook {
   std::string material;
   double temperature = 0;  ///< [K]
   bool moves = true;
+  std::optional<double> warmingTime;  ///< [s] as in BodySettings
+  bool deforms = false;               ///< its mesh is not the one that it was made with
+  bool swelling = false;              ///< gas carries its vertices now
+  int shapeFrame = 0;                 ///< frame in which its mesh last changed; 0: at rest
 };
 
 /// Sums over the whole run.
@@ -33,9 +38,11 @@ struct WorldState {
   double largestSource = 0;   ///< phi [1/s] of the last sub-step
   std::uint64_t burning = 0;  ///< particles in that sub-step
   FluidState gas;
+  std::optional<StepLimits> limits;  ///< of the gas as it is, where the last sub-step has found them
   ParticleSet particles;
   std::vector<std::uint64_t> emitted;  ///< per charge
   RigidBodies bodies;
+  std::vector<CollisionShape> shapes;   ///< of bodies, where they collide
   std::optional<SolidStamper> stamper;  ///< where moving bodies block the gas
   std::vector<BodyLook> looks;
   RunTotals totals;

@@ -84,7 +84,9 @@ TEST(DonorSweep, DoesWhatTheStepsDoOneAfterTheOtherInEveryKindOfBox) {
     for (const bool solids : {false, true}) {
       FluidState swept = roughGas(s, solids), stepped = swept;
       SweepScratch sweep;
-      const Balance heat = sweepScalars(swept, s, {sootPerMass, s.flameLifetime}, dt, sweep);
+      double hottest = 0;
+      const Balance heat = sweepScalars(swept, s, {sootPerMass, s.flameLifetime}, dt, sweep, hottest);
+      EXPECT_EQ(hottest, largestMagnitude(swept.temperature));
       sweepVelocity(swept, s, dt, sweep);
 
       AdvectionScratch scratch;
@@ -117,7 +119,8 @@ TEST(DonorSweep, HasTheSameBitsWithAnyVectorsAndThreads) {
       forceVectorPath(path);
       FluidState gas = roughGas(s, true);
       SweepScratch scratch;
-      sweepScalars(gas, s, {sootPerMass, s.flameLifetime}, dt, scratch);
+      double hottest = 0;
+      sweepScalars(gas, s, {sootPerMass, s.flameLifetime}, dt, scratch, hottest);
       sweepVelocity(gas, s, dt, scratch);
       confineVorticity(gas, s, dt, scratch.velocity);
       forceVectorPath(VectorPath::avx512);

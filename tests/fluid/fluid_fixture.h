@@ -38,7 +38,7 @@ inline void restAtClosedFaces(FluidState& gas) {
       if (gas.solid.openShare.component(axis).values[n] == 0) gas.velocity.component(axis).values[n] = 0;
 }
 
-inline double largestDifference(const std::vector<float>& a, const std::vector<float>& b) {
+inline double largestDifference(const AlignedVector<float>& a, const AlignedVector<float>& b) {
   double largest = 0;
   for (std::size_t n = 0; n < a.size(); ++n) largest = std::max(largest, std::abs(double(a[n]) - b[n]));
   return largest;

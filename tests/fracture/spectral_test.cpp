@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <fstream>
+#include <set>
 
 #include "assets/sample_meshes.h"
 #include "base/check.h"
@@ -166,6 +169,14 @@ TEST(Spectral, BreaksInsidePartsBreadthFirstWhenAsked) {
     EXPECT_EQ(half, halves.pieceOf[t]) << "no piece crosses the first cut";
   }
   EXPECT_EQ(*std::max_element(sizes.begin(), sizes.end()), pieceSizes(smallest)[halves.pieceOf[0] == small ? 1 : 0]);
+  settings.inside = InsideParts::largest;
+  const Partition largest = partitionSurface(mesh, settings, 20).partition;
+  expectPieces(mesh, largest, 20);
+  std::set<int> ofSmall, ofLarge;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    (halves.pieceOf[t] == small ? ofSmall : ofLarge).insert(largest.pieceOf[t]);
+  EXPECT_EQ(ofSmall.size(), 1u);
+  EXPECT_EQ(ofLarge.size(), 19u);
   settings.parts = 3;
   EXPECT_EQ(partitionSurface(mesh, settings, 3).partition.pieceOf,
             partitionSurface(mesh, clipped, 3).partition.pieceOf);

@@ -105,6 +105,38 @@ TEST(GltfFilm, ABodyThatOnlyTurnsHasNoTrackOfPlaces) {
   EXPECT_EQ(glb.at("pane.001", "translation", 0.2), std::vector<double>({1, 2, 3}));
 }
 
+TEST(GltfFilm, ABodyThatSwellsHasAllItsShapes) {
+  RunMotion motion = swellingMotion();
+  const Glb glb(motionToGlb(motion, fps, {}));
+  const nlohmann::json& mesh = glb.json["meshes"][glb.json["nodes"][0]["mesh"].get<int>()];
+  EXPECT_NE(glb.json["nodes"][0]["mesh"], glb.json["nodes"][1]["mesh"]);  // the other body keeps its shape
+  const nlohmann::json& primitive = mesh["primitives"][0];
+  const auto first = glb.floats(primitive["attributes"]["POSITION"].get<int>());
+  ASSERT_EQ(primitive["targets"].size(), 3u);
+  const auto keys = glb.track("pane.001", "weights");  // three weights for each time, one after the other
+  ASSERT_EQ(keys.values.size(), 3 * keys.seconds.size());
+  const auto weightsIn = [&](int frame) {
+    const double seconds = (frame - 1) / fps;
+    std::size_t key = 0;  // the last one not after the frame, or the first
+    while (key + 1 < keys.seconds.size() && keys.seconds[key + 1] < seconds + tolerance) ++key;
+    const bool between = key + 1 < keys.seconds.size() && keys.seconds[key] < seconds - tolerance;
+    for (std::size_t t = 0; between && t < 3; ++t)
+      EXPECT_EQ(keys.values[3 * key + t], keys.values[3 * key + 3 + t]) << frame;
+    return std::array{keys.values[3 * key][0], keys.values[3 * key + 1][0], keys.values[3 * key + 2][0]};
+  };
+  for (int frame = 1; frame <= sampleFrames; ++frame) {
+    const auto weights = weightsIn(frame);
+    const auto& expected = motion.bodies[0].shapes[frame - 1]->vertices;
+    for (std::size_t v = 0; v < first.size(); ++v)
+      for (int axis = 0; axis < 3; ++axis) {
+        double place = first[v][axis];
+        for (std::size_t t = 0; t < 3; ++t)
+          place += weights.at(t) * glb.floats(primitive["targets"][t]["POSITION"].get<int>())[v][axis];
+        EXPECT_NEAR(place, expected[v][axis], tolerance) << frame;
+      }
+  }
+}
+
 TEST(GltfFilm, NothingMovesInAFilmOfOneFrame) {
   RunMotion motion = sampleMotion();
   motion.frames = {3};

@@ -70,6 +70,42 @@ TEST(RunDirectory, AFrameReadsBackAsItWasWritten) {
   EXPECT_TRUE(readFrame(scratch / "run", 2, false).gas.density.bricks.empty());
 }
 
+TEST(RunDirectory, ABodyHasTheShapeThatItLastTook) {
+  const ScratchDirectory scratch;
+  const Frame sample = sampleFrame(1);
+  const auto scaled = [&](double factor) {
+    TriangleMesh mesh = *sample.bodies[0].mesh;
+    for (Vec3d& v : mesh.vertices) v *= factor;
+    return std::make_shared<const TriangleMesh>(mesh);
+  };
+  {
+    RunDirectory run(scratch / "run", Mode::create);
+    run.add("pieces.glb", piecesToGlb(sample.bodies));
+    for (int index = 1; index <= 4; ++index) {  // grows in the second and the third frame
+      Frame frame = sampleFrame(index);
+      if (index > 1) {
+        frame.bodies[0].shapeFrame = std::min(index, 3);
+        frame.bodies[0].mesh = scaled(frame.bodies[0].shapeFrame);
+      }
+      run.addFrame(frame);
+    }
+    EXPECT_FALSE(run.manifest().contains("bodies/shapes.0001.glb"));
+    EXPECT_TRUE(run.manifest().contains("bodies/shapes.0003.glb"));
+    EXPECT_FALSE(run.manifest().contains("bodies/shapes.0004.glb"));
+  }
+  EXPECT_EQ(verifyRun(scratch / "run"), std::vector<std::string>());
+  const RunReader reader(scratch / "run");
+  for (int index = 4; index >= 1; --index) {
+    Frame frame;
+    reader.readBodies(index, frame);
+    EXPECT_EQ(frame.bodies[0].mesh->vertices, scaled(std::min(index, 3))->vertices) << index;
+    EXPECT_EQ(frame.bodies[1].mesh->vertices, sample.bodies[1].mesh->vertices) << index;
+    EXPECT_EQ(frame.bodies[0].material, sample.bodies[0].material);
+  }
+  RunDirectory(scratch / "run", Mode::overwrite);
+  EXPECT_FALSE(fs::exists(scratch / "run/bodies"));  // its shapes were files of the run
+}
+
 TEST(RunDirectory, LiesAsPromised) {
   const ScratchDirectory scratch;
   makeRun(scratch / "run");

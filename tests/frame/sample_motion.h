@@ -30,6 +30,21 @@ inline RunMotion sampleMotion() {
   return motion;
 }
 
+/// The same, the first body changing its shape in frames 4, 5 and 9.
+inline RunMotion swellingMotion() {
+  RunMotion motion = sampleMotion();
+  auto mesh = motion.bodies[0].body.mesh;
+  for (const int frame : motion.frames) {
+    if (frame == 4 || frame == 5 || frame == 9) {
+      TriangleMesh larger = *mesh;
+      for (Vec3d& v : larger.vertices) v = v * 1.5 + Vec3d(.25, 0, 0);
+      mesh = std::make_shared<const TriangleMesh>(larger);
+    }
+    motion.bodies[0].shapes.push_back(mesh);
+  }
+  return motion;
+}
+
 /// How far two rotations are apart, whatever their signs.
 inline double apart(const Quaternion& a, const Quaternion& b) {
   const double cosine = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z, sign = cosine < 0 ? -1 : 1;

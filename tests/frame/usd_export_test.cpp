@@ -82,6 +82,23 @@ TEST(UsdFilm, KeysOfABodyAtRestAreLeftOut) {
   EXPECT_TRUE(late.contains(releaseFrame));
 }
 
+TEST(UsdFilm, ABodyThatSwellsHasItsPointsAtEveryChange) {
+  const RunMotion motion = swellingMotion();
+  const UsdPrim layer = layerOf(motion);
+  const UsdPrim& mesh = *layer.at("/World/Bodies/pane_001/mesh");
+  const auto& samples = mesh.timeSamples.at("point3f[] points");
+  ASSERT_EQ(samples.size(), 4u);
+  for (const auto& [frame, text] : samples) {
+    const std::vector<double> numbers = numbersIn(text);
+    const auto& expected = motion.bodies[0].shapes.at(static_cast<std::size_t>(frame) - 1)->vertices;
+    ASSERT_EQ(numbers.size(), 3 * expected.size());
+    for (std::size_t n = 0; n < numbers.size(); ++n)
+      EXPECT_NEAR(numbers[n], expected[n / 3][static_cast<int>(n % 3)], 1e-5) << frame;
+  }
+  EXPECT_TRUE(samples.contains(4) && samples.contains(5) && samples.contains(9));
+  EXPECT_FALSE(mesh.properties.contains("point3f[] points"));
+}
+
 TEST(UsdFilm, MeshesAreWhole) {
   const UsdPrim layer = layerOf(sampleMotion());
   const TriangleMesh expected = sampleTetrahedron();

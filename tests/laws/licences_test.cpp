@@ -23,7 +23,9 @@ struct Licence {
 /// By the library's name up to its version.
 const std::map<std::string, Licence>& knownLibraries() {
   static const Licence runtime{"GPL-3.0-or-later WITH GCC-exception-3.1", "GCC Runtime Library Exception"};
-  static const std::map<std::string, Licence> table{{"libIex-3_1", {"BSD-3-Clause", "BSD-3-clause"}},
+  static const std::map<std::string, Licence> table{{"libBulletCollision-float64", {"Zlib", "License: Zlib"}},
+                                                    {"libLinearMath-float64", {"Zlib", "License: Zlib"}},
+                                                    {"libIex-3_1", {"BSD-3-Clause", "BSD-3-clause"}},
                                                     {"libIlmThread-3_1", {"BSD-3-Clause", "BSD-3-clause"}},
                                                     {"libImath-3_1", {"BSD-3-Clause", "License: imath"}},
                                                     {"libOpenEXR-3_1", {"BSD-3-Clause", "BSD-3-clause"}},

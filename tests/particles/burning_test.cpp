@@ -272,5 +272,39 @@ TEST(Walls, LeavingTheBoxIsTheEnd) {
   EXPECT_EQ(p.size(), 0u);
 }
 
+TEST(Walls, WhatLeavesAPeriodicBoxComesInAgainOpposite) {
+  for (const float sign : {1.0f, -1.0f})
+    for (int axis = 0; axis < 3; ++axis) {
+      Box box;
+      for (float& v : box.velocity.component(axis).values) v = 5 * sign;
+      GasAround around = box.around();
+      around.periodic[axis] = true;
+      BurnSettings s;
+      const Vec3d start{.41, .37, .63};
+      ParticleSet p = oneFuel(start, s.fuelMassThreshold / 2, false);  // it moves as the gas does
+      constexpr double dt = 0.013;
+      for (int n = 1; n <= 60; ++n) {
+        stepParticles(p, around, s, dt);
+        ASSERT_EQ(p.size(), 1u) << axis << " " << n;
+        Vec3d expected = start;
+        expected[axis] += 5 * sign * dt * n;
+        expected[axis] -= std::floor(expected[axis]);
+        EXPECT_LT(length(p.position[0] - expected), 1e-9) << axis << " " << n;
+      }
+    }
+}
+
+TEST(Walls, AStepOfManyBoxesEndsWhereItShould) {
+  Box box;
+  for (float& v : box.velocity.v.values) v = -100;
+  GasAround around = box.around();
+  around.periodic[1] = true;
+  BurnSettings s;
+  ParticleSet p = oneFuel({.5, .25, .5}, s.fuelMassThreshold / 2, false);
+  stepParticles(p, around, s, 0.0375);
+  ASSERT_EQ(p.size(), 1u);
+  EXPECT_NEAR(p.position[0].y, 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace brisance

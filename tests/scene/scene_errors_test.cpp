@@ -244,6 +244,11 @@ TEST(SceneErrors, SceneryAndWhatMovesAreToldApart) {
   expectLine(
       body + "shape = 'box'\nblocks_gas = true\n",
       "s.toml:4: bodies.a.blocks_gas: must be false: only solid scenery (moves = false, no rectangle) blocks gas");
+  expectLine(
+      body + "shape = 'pane'\nswells = true\n",
+      "s.toml:4: bodies.a.swells: must be false: only a hollow body that moves swells, no pane and no solid pieces");
+  expectLine("gas.bodies = 'block'\n" + body + "shape = 'box'\nswells = true\n",
+             "s.toml:5: bodies.a.swells: must be false where gas.bodies is block: gas passes through what it swells");
   expectLine(body + "shape = 'box'\nfracture.pieces = 13\n",
              "s.toml:4: bodies.a.fracture.pieces: must be at most the 12 triangles of the shape, got 13");
 }

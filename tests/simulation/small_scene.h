@@ -51,4 +51,17 @@ inline SimulationSettings blockingScene() {
   return s;
 }
 
+/// A pane's pieces fall in a heap on the floor of the box, without an explosion.
+inline SimulationSettings landingScene() {
+  SimulationSettings s = smallScene();
+  s.particles.charges.clear();
+  s.rigid.collisions = Contacts{};
+  BodySettings floor = wallPart("floor", {-3, -.1, -3}, {4, 0, 4});
+  floor.blocksGas = false;
+  s.bodies.push_back(floor);
+  BodySettings& pane = s.bodies[4];
+  pane.pose = {{.5, .25, .4}, axisAngle(normalized(Vec3d(1, .2, .3)), .5)};
+  return s;
+}
+
 }  // namespace brisance::test

@@ -13,6 +13,33 @@ namespace brisance {
 namespace {
 using namespace test;
 
+/// A ball of 5 pieces around the charge, which swells until it is released in the middle of the fourth frame.
+SimulationSettings swellingScene() {
+  SimulationSettings s = smallScene();
+  BodySettings balloon;
+  balloon.name = "balloon";
+  balloon.shape = SphereShape{.22, 16};
+  balloon.fracture.pieces = 5;
+  balloon.pose = {{.5, .5, .35}, axisAngle({.6, .8, 0}, .4)};
+  balloon.mass = MassGiven{.05};
+  balloon.swells = true;
+  balloon.releaseTime = 3.4 * s.frameTime;
+  balloon.warmingTime = .01;
+  s.bodies.back() = balloon;
+  return s;
+}
+
+/// The same above a floor that the pieces land on.
+SimulationSettings landingBalloon() {
+  SimulationSettings s = swellingScene();
+  s.rigid.collisions = Contacts{};
+  s.rigid.gravity = {0, -40, 0};
+  BodySettings floor = wallPart("floor", {-3, .1, -3}, {4, .2, 4});
+  floor.blocksGas = false;
+  s.bodies.push_back(floor);
+  return s;
+}
+
 World worldAt(const SimulationSettings& settings, int frame) {
   World world(settings);
   while (world.frameIndex() < frame) world.advance();
@@ -27,6 +54,9 @@ void expectSame(const Frame& a, const Frame& b) {
     EXPECT_EQ(a.bodies[n].pose, b.bodies[n].pose);
     EXPECT_EQ(a.bodies[n].linearVelocity, b.bodies[n].linearVelocity);
     EXPECT_EQ(a.bodies[n].angularVelocity, b.bodies[n].angularVelocity);
+    EXPECT_EQ(a.bodies[n].temperature, b.bodies[n].temperature);
+    EXPECT_EQ(a.bodies[n].shapeFrame, b.bodies[n].shapeFrame);
+    EXPECT_EQ(a.bodies[n].mesh->vertices, b.bodies[n].mesh->vertices);
   }
 }
 
@@ -103,7 +133,8 @@ TEST(World, GasStaysBehindAPaneThatBlocksItUntilThePaneGoes) {
 }
 
 TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
-  for (const SimulationSettings& settings : {smallScene(), blockingScene()}) {
+  for (const SimulationSettings& settings :
+       {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon()}) {
     const Frame undisturbed = worldAt(settings, 8).capture();
     for (const int stop : {2, 4, 7}) {
       const std::string bytes = worldAt(settings, stop).checkpoint();
@@ -117,7 +148,8 @@ TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
 }
 
 TEST(World, AnyThreadsAndVectorWidthGiveTheSameBits) {
-  for (const SimulationSettings& settings : {smallScene(), blockingScene()}) {
+  for (const SimulationSettings& settings :
+       {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon()}) {
     std::vector<Frame> frames;
     for (const int threads : {1, 2, 3})
       for (const VectorPath path : {VectorPath::plain, VectorPath::avx2, VectorPath::avx512}) {
@@ -129,11 +161,77 @@ TEST(World, AnyThreadsAndVectorWidthGiveTheSameBits) {
   }
 }
 
+double spanOf(const Frame& frame) {
+  Box3 around;
+  for (const FrameBody& body : frame.bodies)
+    if (body.moves)
+      for (const Vec3d& v : body.mesh->vertices) around.include(body.pose * v);
+  return length(around.size());
+}
+
+TEST(World, ABalloonSwellsWithItsPiecesTogetherAndThenTheyFly) {
+  const SimulationSettings settings = swellingScene();
+  World world(settings);
+  const Frame start = world.capture();
+  double span = spanOf(start);
+  while (world.frameIndex() < 4) {
+    world.advance();
+    const double now = spanOf(world.capture());
+    EXPECT_GT(now, span);
+    span = now;
+  }
+  const Frame swollen = world.capture();  // frame 4 is at 3 frame times: still one body
+  std::vector<Vec3d> places;
+  for (const FrameBody& body : swollen.bodies) {
+    if (!body.moves) continue;
+    EXPECT_EQ(body.shapeFrame, 4);
+    EXPECT_EQ(body.linearVelocity, Vec3d());
+    for (const Vec3d& v : body.mesh->vertices) places.push_back(body.pose * v);
+  }
+  const auto apart = [](const std::vector<Vec3d>& points) {  // vertices that two pieces share are in two meshes
+    std::size_t alone = 0;
+    for (const Vec3d& p : points)
+      alone += std::count_if(points.begin(), points.end(), [&](const Vec3d& q) { return length(p - q) < 1e-9; }) == 1;
+    return alone;
+  };
+  std::vector<Vec3d> atRest;
+  for (const FrameBody& body : start.bodies)
+    if (body.moves)
+      for (const Vec3d& v : body.mesh->vertices) atRest.push_back(body.pose * v);
+  EXPECT_EQ(apart(places), apart(atRest));
+  while (world.frameIndex() < 8) world.advance();
+  const Frame flying = world.capture();
+  double hottest = 0;
+  for (const FrameBody& body : flying.bodies) {
+    if (!body.moves) continue;
+    EXPECT_LE(body.shapeFrame, 6);  // one that a sub-step ends in after the release
+    EXPECT_GT(length(body.linearVelocity), 0);
+    hottest = std::max(hottest, body.temperature);
+  }
+  EXPECT_GT(spanOf(flying), span);
+  EXPECT_GT(hottest, 301);
+}
+
 TEST(World, AnotherSeedGivesAnotherExplosion) {
   SimulationSettings settings = smallScene();
   const Frame first = worldAt(settings, 3).capture();
   settings.seed = 2;
   EXPECT_FALSE(worldAt(settings, 3).capture().particles == first.particles);
+}
+
+TEST(World, PiecesThatCollideComeToLieOnTheFloor) {
+  SimulationSettings settings = landingScene();
+  settings.frames = 60;
+  const Frame landing = worldAt(settings, 8).capture(), frame = worldAt(settings, 60).capture();
+  double fastest = 0, deepest = 0;
+  for (const FrameBody& body : landing.bodies) fastest = std::max(fastest, length(body.linearVelocity));
+  EXPECT_GT(fastest, .1) << "a checkpoint of frame 7 is taken in the middle of contact";
+  for (const FrameBody& body : frame.bodies) {
+    if (!body.moves) continue;
+    EXPECT_LT(length(body.linearVelocity), 1e-3) << body.name;
+    for (const Vec3d& v : body.mesh->vertices) deepest = std::min(deepest, (body.pose * v).y);
+  }
+  EXPECT_GT(deepest, -5e-5);
 }
 
 TEST(World, PiecesRestUntilTheyAreReleased) {

@@ -1,0 +1,174 @@
+#include "base/parallel.h"
+#include "base/vector_path.h"
+#include "fluid/advection.h"
+#include "fluid/donor_rows.h"
+#include "fluid/donor_sweep.h"
+#include "fluid/forces.h"
+
+namespace brisance {
+
+namespace {
+/// Of a velocity component and of what carries it.
+struct Stencil {
+  Neighbours s;
+  FaceSides sides;
+
+  /// Along its own axis a component carries itself.
+  void carryItself(int axis) {
+    sides.lowerPair[axis][0] = s.lower[axis];
+    sides.lowerPair[axis][1] = sides.upperPair[axis][0] = s.here;
+    sides.upperPair[axis][1] = s.upper[axis];
+  }
+  void setSides(int axis, const float* lower0, const float* lower1, const float* upper0, const float* upper1) {
+    sides.lowerPair[axis][0] = lower0;
+    sides.lowerPair[axis][1] = lower1;
+    sides.upperPair[axis][0] = upper0;
+    sides.upperPair[axis][1] = upper1;
+  }
+  Stencil from(int i) const {
+    Stencil moved = *this;
+    moved.s.here += i;
+    for (int axis = 0; axis < 3; ++axis) {
+      moved.s.lower[axis] += i;
+      moved.s.upper[axis] += i;
+      for (int n = 0; n < 2; ++n) {
+        moved.sides.lowerPair[axis][n] += i;
+        moved.sides.upperPair[axis][n] += i;
+      }
+    }
+    return moved;
+  }
+};
+
+/// The old velocity's rows, and what accelerates the new one.
+class SpeedSweep {
+ public:
+  SpeedSweep(const FluidState& gas, const FluidSettings& settings, double dt, MacVelocity& out)
+      : gas_(gas),
+        settings_(settings),
+        out_(out),
+        rows_{componentRows(0), componentRows(1), componentRows(2)},
+        c_(static_cast<float>(dt / settings.cellSize) / (2 * FaceSides::perSpeed)),
+        weight_(upwindWeightOf(settings)),
+        dt_(dt) {}
+  static constexpr int rooms = 11;
+
+  void plane(int k, Rooms& made) const {
+    const Vec3i cells = gas_.temperature.size;
+    for (int j = 0; j <= cells.y; ++j)
+      runWide([&] {
+        if (k < cells.z && j < cells.y) accelerateAlongX(j, k, made);
+        if (k < cells.z) accelerateAlongY(j, k, made);
+        if (j < cells.y) accelerateAlongZ(j, k, made);
+      });
+  }
+
+ private:
+  GhostRows componentRows(int axis) const {
+    return {gas_.velocity.component(axis), axis, static_cast<float>(settings_.wind[axis]), gas_.velocity,
+            settings_.faces};
+  }
+  float force(int axis) const { return static_cast<float>(dt_ * settings_.force[axis]); }
+
+  /// The faces between the row's cells, which need no ghosts at its ends, and the box's two, which nothing crosses
+  /// where they are walls.
+  void accelerateAlongX(int j, int k, Rooms& made) const {
+    Stencil x{neighboursInside(rows_[0], j, k, made, 0), {}};
+    const float *v = rows_[1].row(j, k, nullptr), *vUpper = rows_[1].row(j + 1, k, nullptr);
+    const float *w = rows_[2].row(j, k, nullptr), *wUpper = rows_[2].row(j, k + 1, nullptr);
+    x.carryItself(0);
+    x.setSides(1, v - 1, v, vUpper - 1, vUpper);
+    x.setSides(2, w - 1, w, wUpper - 1, wUpper);
+    const float* open = openRow(gas_.solid, 0, j, k);
+    float* out = &out_.u(0, j, k);
+    const int n = gas_.temperature.size.x;
+    const float gained = force(0);
+    carry(x.from(1), open + 1, n - 1, out + 1, [=](std::int64_t) { return gained; });
+    for (const int side : {0, 1}) {
+      const int i = side ? n : 0;
+      accelerateEnd(side, j, k, x.from(i), open[i], out[i]);
+    }
+  }
+  void accelerateEnd(int side, int j, int k, Stencil at, float open, float& out) const {
+    out = at.s.here[0];
+    if (!(open > 0)) return;
+    const float u = rows_[0].end(side, j, k), v = rows_[1].end(side, j, k), vUpper = rows_[1].end(side, j + 1, k),
+                w = rows_[2].end(side, j, k), wUpper = rows_[2].end(side, j, k + 1);
+    (side ? at.s.upper[0] : at.s.lower[0]) = &u;
+    at.carryItself(0);
+    at.sides.lowerPair[1][side] = &v;
+    at.sides.upperPair[1][side] = &vUpper;
+    at.sides.lowerPair[2][side] = &w;
+    at.sides.upperPair[2][side] = &wUpper;
+    out = carried(at.s, DonorShares(at.sides, weight_, 0), c_, 0) + force(0);
+  }
+
+  void accelerateAlongY(int j, int k, Rooms& made) const {
+    Stencil y{neighboursOf(rows_[1], j, k, made, 0), {}};
+    y.carryItself(1);
+    const float *u = rows_[0].row(j - 1, k, made[5]), *uNext = rows_[0].row(j, k, made[6]);
+    y.setSides(0, u, uNext, u + 1, uNext + 1);
+    y.setSides(2, rows_[2].row(j - 1, k, made[7]), rows_[2].row(j, k, made[8]), rows_[2].row(j - 1, k + 1, made[9]),
+               rows_[2].row(j, k + 1, made[10]));
+    const float gained = force(1);
+    if (settings_.buoyancy == 0) return accelerate(1, y, j, k, [=](std::int64_t) { return gained; });
+    const Lift lift(gas_.temperature, settings_, dt_, j, k);
+    accelerate(1, y, j, k, [=](std::int64_t i) { return gained + lift(i); });
+  }
+
+  void accelerateAlongZ(int j, int k, Rooms& made) const {
+    Stencil z{neighboursOf(rows_[2], j, k, made, 0), {}};
+    z.carryItself(2);
+    const float *u = rows_[0].row(j, k - 1, made[5]), *uNext = rows_[0].row(j, k, made[6]);
+    z.setSides(0, u, uNext, u + 1, uNext + 1);
+    z.setSides(1, rows_[1].row(j, k - 1, made[7]), rows_[1].row(j, k, made[8]), rows_[1].row(j + 1, k - 1, made[9]),
+               rows_[1].row(j + 1, k, made[10]));
+    const float gained = force(2);
+    accelerate(2, z, j, k, [=](std::int64_t) { return gained; });
+  }
+
+  template <class Gained>
+  void accelerate(int axis, const Stencil& stencil, int j, int k, const Gained& gained) const {
+    const float* open = openRow(gas_.solid, axis, j, k);
+    float* out = &out_.component(axis)(0, j, k);
+    carry(stencil, open, gas_.temperature.size.x, out, gained);
+  }
+
+  template <class Gained>
+  void carry(const Stencil& stencil, const float* open, int count, float* out, const Gained& gain) const {
+    const Stencil at = stencil;  // which no store changes
+    const Gained gained = gain;
+    const float c = c_, weight = weight_;
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+      const float here = at.s.here[i];
+      const float moved = carried(at.s, DonorShares(at.sides, weight, i), c, i) + gained(i);
+      out[i] = open[i] > 0 ? moved : here;
+    }
+  }
+
+  const FluidState& gas_;
+  const FluidSettings& settings_;
+  MacVelocity& out_;
+  GhostRows rows_[3];
+  float c_, weight_;
+  double dt_;
+};
+}  // namespace
+
+bool sweepsSuffice(const FluidSettings& settings, double courant) {
+  const auto* donor = std::get_if<DonorCell>(&settings.advection);
+  return donor && donorStages(*donor, courant) == 1 && settings.viscosity == 0 && settings.conductivity == 0;
+}
+
+void sweepVelocity(FluidState& gas, const FluidSettings& settings, double dt, SweepScratch& scratch) {
+  for (int axis = 0; axis < 3; ++axis) sizeAs(scratch.velocity.component(axis), gas.velocity.component(axis));
+  const SpeedSweep sweep(gas, settings, dt, scratch.velocity);
+  parallelFor(0, gas.temperature.size.z + 1, 2, [&](std::int64_t first, std::int64_t last) {
+    Rooms made(gas.temperature.size.x + 1, SpeedSweep::rooms);
+    for (std::int64_t k = first; k < last; ++k) sweep.plane(static_cast<int>(k), made);
+  });
+  std::swap(gas.velocity, scratch.velocity);
+}
+
+}  // namespace brisance
