@@ -16,15 +16,15 @@ class Writer {
     static_assert(std::is_trivially_copyable_v<T>);
     bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
   }
-  template <class T>
-  void array(const std::vector<T>& v) {
+  template <class T, class Allocator>
+  void array(const std::vector<T, Allocator>& v) {
     static_assert(std::is_trivially_copyable_v<T>);
     value(static_cast<std::uint64_t>(v.size()));
     bytes.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(T));
   }
   /// An array whose length the settings fix.
-  template <class T>
-  void fixedArray(const std::vector<T>& v) {
+  template <class T, class Allocator>
+  void fixedArray(const std::vector<T, Allocator>& v) {
     array(v);
   }
   std::string bytes;
@@ -37,12 +37,12 @@ class Measure {
   void value(const T&) {
     bytes += sizeof(T);
   }
-  template <class T>
-  void array(const std::vector<T>& v) {
+  template <class T, class Allocator>
+  void array(const std::vector<T, Allocator>& v) {
     bytes += sizeof(std::uint64_t) + v.size() * sizeof(T);
   }
-  template <class T>
-  void fixedArray(const std::vector<T>& v) {
+  template <class T, class Allocator>
+  void fixedArray(const std::vector<T, Allocator>& v) {
     array(v);
   }
   std::size_t bytes = 0;
@@ -56,16 +56,16 @@ class Reader {
   void value(T& v) {
     std::memcpy(static_cast<void*>(&v), take(sizeof v), sizeof v);
   }
-  template <class T>
-  void array(std::vector<T>& v) {
+  template <class T, class Allocator>
+  void array(std::vector<T, Allocator>& v) {
     std::uint64_t count = 0;
     value(count);
     if (count > (bytes_.size() - at_) / sizeof(T)) refuse("ends in the middle");
     v.resize(count);
     if (count > 0) std::memcpy(static_cast<void*>(v.data()), take(count * sizeof(T)), count * sizeof(T));
   }
-  template <class T>
-  void fixedArray(std::vector<T>& v) {
+  template <class T, class Allocator>
+  void fixedArray(std::vector<T, Allocator>& v) {
     const std::size_t expected = v.size();
     array(v);
     if (v.size() != expected) refuse("belongs to a scene of another size");

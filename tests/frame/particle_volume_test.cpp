@@ -182,8 +182,8 @@ TEST(ParticleVolume, WithoutParticlesIsOneEmptyCell) {
   const auto settings = smallVolume();
   for (const auto& volume : {splatParticles({}, settings, equalMass, mixedColour),
                              splatParticles(spreadParticles(9, settings, 6), settings, nothing, mixedColour)}) {
-    EXPECT_EQ(volume.density.values, std::vector<float>{0});
-    EXPECT_EQ(volume.colour.values, std::vector<Vec3f>{Vec3f()});
+    EXPECT_EQ(volume.density.values, decltype(volume.density.values){0});
+    EXPECT_EQ(volume.colour.values, decltype(volume.colour.values){Vec3f()});
   }
 }
 

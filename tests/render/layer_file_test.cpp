@@ -192,9 +192,11 @@ TEST(Exposure, MeasuresTheVarianceOfThePixelsMean) {
   RenderSettings settings = smallPicture();
   settings.samples = 4;
   const CameraRays rays(settings, {}, 1);
-  const Follow chance = [](const Ray&, float, SampleSequence& numbers) {
-    const float x = NumberRun(numbers.bits())();
-    return Vec3f(x, 2 * x, 0);
+  const Follow chance = [](std::span<CameraRay> packet, std::span<Vec3f> light) {
+    for (std::size_t n = 0; n < packet.size(); ++n) {
+      const float x = NumberRun(packet[n].numbers.bits())();
+      light[n] = Vec3f(x, 2 * x, 0);
+    }
   };
   const Exposed exposed = expose(rays, size, size, chance, Noise::measured);
   double variance = 0, spread = 0, halves = 0, squares = 0;

@@ -1,0 +1,80 @@
+#!/bin/sh
+# The thesis' frame (300x300, 2x2 samples, 512 pieces of glass, a volume of 300^3 cells) by Brisance and by Cycles in
+# Blender: the same bodies by glTF, the same gas by VDB, one after the other. Then both by all ways of light: the time
+# that Brisance's path integrator needs for the noise of Cycles at 64 samples.
+# usage: bench/cycles.sh [WIDTHxHEIGHT [CYCLES_SAMPLES [FOLDER]]], after ./dev build and ./dev bench; as it is 300x300 64.
+# FOLDER keeps the run and the pictures (else they are removed).
+set -eu
+size=${1:-300x300}
+samples=${2:-64}
+frame=14
+bounces=12
+here=$(cd "$(dirname "$0")" && pwd)
+programs=$here/../build/release/bin
+if ! command -v blender >/dev/null 2>&1; then
+  echo "cycles: skipped: blender is not installed (Debian package blender)"
+  exit 0
+fi
+if [ ! -x "$programs/brisance" ] || [ ! -x "$programs/fine_volume" ]; then
+  echo "cycles: $programs: brisance and fine_volume must be built first (./dev build, ./dev bench)" >&2
+  exit 1
+fi
+if [ -n "${3:-}" ]; then
+  folder=$3
+  mkdir -p "$folder"
+else
+  folder=$(mktemp -d)
+  trap 'rm -rf "$folder"' EXIT INT TERM
+fi
+width=${size%x*}
+height=${size#*x}
+
+if [ ! -d "$folder/run" ]; then
+  sed -e 's/pieces = 16/pieces = 512/; s/points = 200/points = 1600/' -e "s/^frames = .*/frames = $frame/" \
+    -e "s#\.\./assets#$here/../assets#" "$here/../scenes/window.toml" >"$folder/scene.toml"
+  "$programs/brisance" simulate "$folder/scene.toml" -o "$folder/run" --quiet
+  "$programs/brisance" export "$folder/run" --to gltf -o "$folder/bodies.glb" --frames "$frame" --quiet >/dev/null
+  "$programs/fine_volume" "$folder/run" "$frame" "$folder/gas.vdb"
+fi
+
+# draw NAME OPTIONS...: draws the frame, keeps the picture as NAME.exr, prints the seconds.
+draw() {
+  name=$1
+  shift
+  /usr/bin/time -f '%M' -o "$folder/memory" "$programs/brisance" render "$folder/run" --frames "$frame" --json --quiet \
+    --size "$size" "$@" >"$folder/facts.json"
+  cp "$folder/run/images/frame.00$frame.exr" "$folder/$name.exr"
+  grep -o '"render":{"total":[0-9.e-]*' "$folder/facts.json" | sed 's/.*://'
+}
+# cycles NAME SAMPLES SEEDS: prints the seconds of each picture NAME_SEED.exr.
+cycles() {
+  blender --background --factory-startup --python "$here/cycles.py" -- "$folder/bodies.glb" "$folder/gas.vdb" "$frame" \
+    "$width" "$height" "$2" "$bounces" "$3" "$folder/$1" 2>&1 | tee "$folder/log" | grep '^CYCLES' | cut -d' ' -f2
+}
+noise() {
+  blender --background --factory-startup --python "$here/compare_pictures.py" -- "$@" 2>&1 | grep '^NOISE' |
+    while read -r _ file rmse mean shown; do
+      echo "  $(basename "$file" .exr): noise $rmse, of what a display shows $shown, mean $mean"
+    done
+}
+
+echo "Whitted's rays against Cycles at 4 samples, $size"
+ours=$(draw whitted --samples 2)
+memory=$(tail -1 "$folder/memory")
+theirs=$(cycles cycles_4 4 1)
+awk -v a="$ours" -v b="$theirs" -v m="$memory" 'BEGIN {
+  printf "  Brisance: %.3f s, %.0f MB at most\n  Cycles:   %.3f s\n  ratio:    %.1f\n", a, m / 1024, b, b / a }'
+
+echo "All ways of light, $size"
+# Cycles' gas absorbs and shines; its glass is clear.
+path="--set render.integrator.type=path --set render.integrator.max_bounces=$bounces
+  --set render.volume.smoke_colour=[0,0,0] --set materials.glass.absorption=[0,0,0] --set render.seed="
+for n in 4 6 8; do
+  first=$(draw "path_${n}_0" --samples $n ${path}1)
+  draw "path_${n}_1" --samples $n ${path}2 >/dev/null
+  echo "  Brisance, $n x $n samples: $first s"
+  noise "$folder/path_${n}_0.exr" "$folder/path_${n}_1.exr"
+done
+theirs=$(cycles "cycles_$samples" "$samples" 2 | head -1)
+echo "  Cycles, $samples samples: $theirs s"
+noise "$folder/cycles_${samples}_0.exr" "$folder/cycles_${samples}_1.exr"
