@@ -139,7 +139,8 @@ void addFractureOptions(CLI::App& command, RawFractureOptions& raw) {
   command.add_option("--parts", raw.parts, "of curvature: so many parts, then breadth-first inside them")
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");
-  command.add_option("--inside", raw.inside, "of curvature with --parts: which are broken further: all, smallest, largest")
+  command
+      .add_option("--inside", raw.inside, "of curvature with --parts: which are broken further: all, smallest, largest")
       ->option_text("NAME");
   command.add_option("--split", raw.split, "of breadth_first_thesis: list (default), level")->option_text("NAME");
   command.add_option("--impact", raw.impact, "of voronoi: pieces are small near this point")->option_text("X,Y,Z");

@@ -271,8 +271,8 @@ Partition breakOne(const FractureGraph& graph, const Partition& parts, InsidePar
   const int most = inside.nodeCount() + parts.count - 1;
   if (pieces > most)
     throw InputError(fmt::format(
-        "fracture: pieces: must be at most {} where only the {} of {} parts, of {} triangles, is broken, got {}",
-        most, which == InsideParts::smallest ? "smallest" : "largest", parts.count, inside.nodeCount(), pieces));
+        "fracture: pieces: must be at most {} where only the {} of {} parts, of {} triangles, is broken, got {}", most,
+        which == InsideParts::smallest ? "smallest" : "largest", parts.count, inside.nodeCount(), pieces));
   const Partition broken = partitionBreadthFirst(inside, pieces - parts.count + 1);
   Partition result = parts;
   result.count = parts.count - 1 + broken.count;

@@ -1,6 +1,9 @@
 #include "mesh/convex_solid.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <set>
 
 #include "mesh/convex_hull.h"
 
@@ -60,10 +63,19 @@ bool isNew(const ConvexFace& face, const std::vector<ConvexFace>& faces) {
   });
 }
 
+/// Each place once, in the order in which places first come.
+std::vector<Vec3d> withoutDuplicates(const std::vector<Vec3d>& points) {
+  std::vector<Vec3d> kept;
+  std::set<std::array<double, 3>> seen;
+  for (const Vec3d& p : points)
+    if (seen.insert({p.x, p.y, p.z}).second) kept.push_back(p);
+  return kept;
+}
+
 }  // namespace
 
 ConvexSolid convexSolid(const std::vector<Vec3d>& points) {
-  const TriangleMesh hull = convexHull(points);
+  const TriangleMesh hull = convexHull(withoutDuplicates(points));
   ConvexSolid solid;
   solid.points = hull.vertices;
   if (solid.points.empty()) return solid;

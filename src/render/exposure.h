@@ -21,8 +21,8 @@ struct Exposed {
 };
 
 enum class Noise { ignored, measured };
-/// Of the picture alone when the noise is `ignored`; that picture is the same in both cases. The same bits for any number of
-/// threads.
+/// Of the picture alone when the noise is `ignored`; that picture is the same in both cases. The same bits for any
+/// number of threads.
 Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise);
 
 }  // namespace brisance

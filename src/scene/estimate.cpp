@@ -24,8 +24,9 @@ constexpr double multigridMemory = 13 * field;  // six vectors and seven entries
 constexpr double gradientMemory = 8 * field;    // four vectors in double precision
 constexpr double movingMemory = 20 * field;     // where moving bodies block gas: what faces and cells are, twice
 constexpr double depositMemory = field + 1;     // among solids: what is inside, and the share of a kernel in gas
-constexpr double writingMemory = 9 * field;     // the frame's packed velocity, and the checkpoint beside it
-constexpr double volumeCellMemory = 32;         // density and colour, and their copy while blurring
+constexpr double writingMemory =
+    16 * field;                          // the frame, its packed file and the checkpoint, less what solvers gave back
+constexpr double volumeCellMemory = 32;  // density and colour, and their copy while blurring
 constexpr double particleMemory =
     445;  // fields 83, to sort 83 and to save 83, deposits 70, the frame and its file 66, and what these leave free
 constexpr double pixelMemory = 32;         // colour and weights in single precision, and the encoded picture
