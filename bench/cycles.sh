@@ -42,7 +42,7 @@ draw() {
   name=$1
   shift
   /usr/bin/time -f '%M' -o "$folder/memory" "$programs/brisance" render "$folder/run" --frames "$frame" --json --quiet \
-    --size "$size" "$@" >"$folder/facts.json"
+    --size "$size" --set render.layers=false "$@" >"$folder/facts.json"
   cp "$folder/run/images/frame.00$frame.exr" "$folder/$name.exr"
   grep -o '"render":{"total":[0-9.e-]*' "$folder/facts.json" | sed 's/.*://'
 }
