@@ -37,14 +37,15 @@ if [ ! -d "$folder/run" ]; then
   "$programs/fine_volume" "$folder/run" "$frame" "$folder/gas.vdb"
 fi
 
-# draw NAME OPTIONS...: draws the frame, keeps the picture as NAME.exr, prints the seconds.
+# draw NAME OPTIONS...: draws the frame, keeps the picture as NAME.exr, prints the seconds
+# of the whole program (those in run.json add up over all pictures of a run).
 draw() {
   name=$1
   shift
-  /usr/bin/time -f '%M' -o "$folder/memory" "$programs/brisance" render "$folder/run" --frames "$frame" --json --quiet \
+  /usr/bin/time -f '%e %M' -o "$folder/memory" "$programs/brisance" render "$folder/run" --frames "$frame" --json --quiet \
     --size "$size" --set render.layers=false "$@" >"$folder/facts.json"
   cp "$folder/run/images/frame.00$frame.exr" "$folder/$name.exr"
-  grep -o '"render":{"total":[0-9.e-]*' "$folder/facts.json" | sed 's/.*://'
+  cut -d' ' -f1 "$folder/memory"
 }
 # cycles NAME SAMPLES SEEDS: prints the seconds of each picture NAME_SEED.exr.
 cycles() {
@@ -60,7 +61,7 @@ noise() {
 
 echo "Whitted's rays against Cycles at 4 samples, $size"
 ours=$(draw whitted --samples 2)
-memory=$(tail -1 "$folder/memory")
+memory=$(cut -d' ' -f2 "$folder/memory")
 theirs=$(cycles cycles_4 4 1)
 awk -v a="$ours" -v b="$theirs" -v m="$memory" 'BEGIN {
   printf "  Brisance: %.3f s, %.0f MB at most\n  Cycles:   %.3f s\n  ratio:    %.1f\n", a, m / 1024, b, b / a }'
