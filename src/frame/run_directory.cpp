@@ -199,9 +199,9 @@ std::string RunDirectory::addInput(const fs::path& source) {
   return name;
 }
 
-std::vector<NewFile> filesOf(const Frame& frame) {
+std::vector<NewFile> filesOf(const Frame& frame, const GasSource& source) {
   const FrameFileNames names(frame.index);
-  PackedGas gas = packGas(frame.gas);
+  PackedGas gas = packGas(source);
   std::vector<NewFile> files{{names.gas, std::move(gas.pieces), std::move(gas.content)},
                              {names.bodies, {bodiesToJson(frame)}, contentHash(frame.bodies)},
                              {names.particles, {particlesToPly(frame.particles)}, contentHash(frame.particles)},

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/durable_file.h"
-#include "frame/frame.h"
+#include "frame/gas_file.h"
 
 namespace brisance {
 
@@ -27,7 +27,7 @@ struct NewFile {
 };
 
 /// gas, bodies, particles and report of a frame, and the shapes that bodies took in it.
-std::vector<NewFile> filesOf(const Frame& frame);
+std::vector<NewFile> filesOf(const Frame& frame, const GasSource& gas);
 
 /// A run directory being written or read. Paths in the manifest are relative, with '/'.
 class RunDirectory {
@@ -54,7 +54,7 @@ class RunDirectory {
 
   /// Several files, made durable together, then one manifest with all of them.
   void add(const std::vector<NewFile>& files);
-  void addFrame(const Frame& frame) { add(filesOf(frame)); }
+  void addFrame(const Frame& frame) { add(filesOf(frame, sourceOf(frame.gas))); }
   /// Copies of a file as inputs/HASH.EXT; returns that relative name.
   std::string addInput(const std::filesystem::path& source);
 

@@ -59,13 +59,12 @@ void writeFrame(RunWriter& writer, const World& world, const SimulationSettings&
                 SimulationSummary& summary) {
   Stopwatch watch;
   writer.wait();  // first, so that the memory of one frame suffices
-  releaseFreedMemory();
   const bool done = world.frameIndex() == last, checkpoint = done || world.frameIndex() % settings.checkpointEvery == 0;
   FrameToWrite files{world.frameIndex(), {}, {}, done ? keptWhenDone : keptWhileRunning};
   {
-    const Frame frame = world.capture();
+    const Frame frame = world.captureWithoutGas();
     for (const auto& [stage, seconds] : frame.report.stageSeconds) summary.stageSeconds[stage] += seconds;
-    files.files = filesOf(frame);
+    files.files = filesOf(frame, world.gas());
   }
   if (checkpoint) files.checkpoint = world.checkpoint();
   writer.write(std::move(files));
@@ -92,7 +91,7 @@ SimulationSummary simulate(const SimulationSettings& settings, RunDirectory& run
   if (run.manifest().contains("pieces.glb")) continueFrom(run, world);
   RunWriter writer(run);
   if (world.frameIndex() == 1) {
-    run.add("pieces.glb", piecesToGlb(world.capture().bodies));
+    run.add("pieces.glb", piecesToGlb(world.captureWithoutGas().bodies));
     writeFrame(writer, world, settings, last, summary);
   }
   while (world.frameIndex() < last) {

@@ -151,6 +151,10 @@ void World::advance() {
 }
 
 Frame World::capture() const { return captureFrame(*state_, settings_); }
+
+Frame World::captureWithoutGas() const { return brisance::captureWithoutGas(*state_); }
+
+GasSource World::gas() const { return gasOf(*state_, settings_); }
 int World::frameIndex() const { return state_->frame; }
 const RunTotals& World::totals() const { return state_->totals; }
 std::string World::checkpoint() const { return writeCheckpoint(*state_); }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "frame/gas_file.h"
 #include "simulation/simulation_settings.h"
 
 namespace brisance {
@@ -26,6 +27,9 @@ class World {
   void advance();
   /// The moment now; frame 1 is the start.
   Frame capture() const;
+  /// The same in two parts, for those who write it: the gas is made while it is read, and no world may advance meanwhile.
+  Frame captureWithoutGas() const;
+  GasSource gas() const;
   int frameIndex() const;
   const RunTotals& totals() const;
 
