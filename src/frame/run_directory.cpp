@@ -160,6 +160,17 @@ void RunDirectory::add(const std::string& name, const std::string& bytes, const 
   record({{name, {writeDurably(placeOf(name), bytes), content}}});
 }
 
+StagedFile RunDirectory::stage(const std::string& name, const std::function<void(std::ostream&)>& write) const {
+  StagedFile file{name, std::make_unique<DurableBatch>(), {}};
+  file.record = file.batch->add(placeOf(name), write);
+  return file;
+}
+
+void RunDirectory::add(StagedFile file) {
+  file.batch->finish();
+  record({{file.name, {file.record, ""}}});
+}
+
 void RunDirectory::add(const std::vector<NewFile>& files) {
   DurableBatch batch;
   std::map<std::string, ManifestEntry> entries;

@@ -157,7 +157,7 @@ Frame World::captureWithoutGas() const { return brisance::captureWithoutGas(*sta
 GasSource World::gas() const { return gasOf(*state_, settings_); }
 int World::frameIndex() const { return state_->frame; }
 const RunTotals& World::totals() const { return state_->totals; }
-std::string World::checkpoint() const { return writeCheckpoint(*state_); }
+void World::checkpoint(std::ostream& out) const { writeCheckpoint(*state_, out); }
 void World::restore(const std::string& bytes, const std::string& fileName) {
   readCheckpoint(bytes, fileName, *state_);
   for (std::size_t b = 0; b < state_->shapes.size(); ++b)

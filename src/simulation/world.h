@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ class World {
   const RunTotals& totals() const;
 
   /// Everything that `advance` depends on, as bytes; settings are not in it.
-  std::string checkpoint() const;
+  void checkpoint(std::ostream& out) const;
   /// Throws DamagedFile when the bytes are no checkpoint of these settings.
   void restore(const std::string& bytes, const std::string& fileName);
 
