@@ -21,7 +21,10 @@ enum class Stream : std::uint64_t {
   cellSeeds,
   eigenvectorStart,
   solidCells,
-  test
+  test,
+  sparkWay,
+  sparkSpeed,
+  dust
 };
 
 class Random {

@@ -23,13 +23,15 @@ struct FrameBody {
   int shapeFrame = 0;      ///< frame in which its mesh last took another shape; 0: as it was at rest
 };
 
+enum class FrameKind : std::uint8_t { unburntFuel = 0, burningFuel = 1, soot = 2, spark = 3, dust = 4 };
+
 /// One entry per particle in each array.
 struct FrameParticles {
   std::vector<Vec3f> position;     ///< [m]
   std::vector<Vec3f> velocity;     ///< [m/s]
   std::vector<float> mass;         ///< [kg]
   std::vector<float> temperature;  ///< [K]
-  std::vector<std::uint8_t> kind;  ///< 0 fuel not burning, 1 fuel burning, 2 soot
+  std::vector<std::uint8_t> kind;  ///< a FrameKind
   friend bool operator==(const FrameParticles&, const FrameParticles&) = default;
 };
 

@@ -9,13 +9,16 @@ namespace brisance {
 
 /// Fuel laid out on a sphere at a moment, and more of it for a while afterwards.
 struct Charge {
-  Vec3d position;           ///< pos_det [m]
-  double radius = 0.1;      ///< r_d [m]
-  double time = 0;          ///< [s]
-  int particles = 1000;     ///< n_p
-  int ignited = 10;         ///< np_i: burning from the start
-  double emissionRate = 0;  ///< np_it as a rate [1/s]
-  double emissionTime = 0;  ///< [s] for how long
+  Vec3d position;                  ///< pos_det [m]
+  double radius = 0.1;             ///< r_d [m]
+  double time = 0;                 ///< [s]
+  int particles = 1000;            ///< n_p
+  int ignited = 10;                ///< np_i: burning from the start
+  double emissionRate = 0;         ///< np_it as a rate [1/s]
+  double emissionTime = 0;         ///< [s] for how long
+  int sparks = 0;                  ///< thrown out at that time
+  double sparkSpeed = 15;          ///< [m/s] of the fastest
+  double sparkTemperature = 2200;  ///< [K]
 };
 
 struct BurnSettings {
@@ -40,9 +43,17 @@ struct BurnSettings {
   double depositRadius = 0.045;        ///< [m] of the kernel that spreads heat and gas, the same on every grid
 };
 
+/// Sparks or dust: balls of one size.
+struct BitSettings {
+  double radius = 0.5e-3;    ///< [m]
+  double density = 2500;     ///< [kg/m3]
+  double coolingTime = 0.6;  ///< [s] in which they come to the gas' temperature, to 1/e
+};
+
 struct ParticleSettings {
   BurnSettings burning;
   std::vector<Charge> charges;
+  BitSettings sparks, dust;
 };
 
 }  // namespace brisance

@@ -11,14 +11,12 @@
 namespace brisance {
 namespace {
 
-enum ParticleKind : std::uint8_t { unburntFuel = 0, burningFuel = 1, soot = 2 };
-
-/// The mass that the picture counts: fuel that does not burn is not seen.
+/// The mass that the gas of the picture counts: fuel that does not burn is not seen, bits are no gas.
 float drawnMass(const FrameParticles& particles, std::size_t p, float fuelWeight) {
-  switch (particles.kind[p]) {
-    case burningFuel:
+  switch (static_cast<FrameKind>(particles.kind[p])) {
+    case FrameKind::burningFuel:
       return particles.mass[p] * fuelWeight;
-    case soot:
+    case FrameKind::soot:
       return particles.mass[p];
     default:
       return 0;

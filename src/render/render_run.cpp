@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "base/check.h"
+#include "render/drawn_bits.h"
 #include "render/flow_arrows.h"
 #include "render/layer_file.h"
 #include "render/picture_file.h"
@@ -71,6 +72,7 @@ RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const
       RenderSettings look = settings;
       if (settings.flow.drawn) addFlow(frame.gas, settings.flow, frame.bodies, look.materials);
       paintPieces(frame.bodies, look.materials, assets.heat);
+      addBits(frame, settings.bits, assets.heat, frame.bodies, look.materials);
       const PictureTime time{options.startTime + (index - 1) / options.fps, 1 / options.fps, options.timeScale};
       addPictures(run, index, drawPicture(frame, look, assets, time, scratch), settings);
       ++summary.rendered;

@@ -130,6 +130,16 @@ struct FlowSettings {
   Vec3f colour{.03f, .1f, .35f};
 };
 
+/// How sparks and dust are drawn.
+struct BitsLook {
+  double sparkWidth = 0.006;    ///< [m] of a streak at its middle
+  double sparkSeconds = 0.005;  ///< [s] of the spark's way that its streak is long
+  double sparkEmission = 6;     ///< times the blackbody colour of its temperature
+  double grainSize = 0.005;     ///< [m] across
+  Vec3f grainColour{.35f, .37f, .36f};
+  Vec3f grainReflection{.4f, .4f, .4f};
+};
+
 /// Light from far away: a picture of all directions.
 struct EnvironmentSettings {
   std::optional<std::filesystem::path>
@@ -165,6 +175,7 @@ struct RenderSettings {
   std::map<std::string, Material> materials;
   VolumeSettings volume;
   FlowSettings flow;
+  BitsLook bits;
 };
 
 }  // namespace brisance

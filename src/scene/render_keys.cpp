@@ -193,6 +193,17 @@ void describeFlow(KeyVisitor& v, FlowSettings& flow) {
   visit(v, {"colour", "", between(0, brightest), "of the arrows; they cast no shadow"}, flow.colour);
 }
 
+void describeBitsLook(KeyVisitor& v, BitsLook& bits) {
+  visit(v, {"spark_width", "m", above(0), "of a spark's streak"}, bits.sparkWidth);
+  visit(v, {"spark_seconds", "s", atLeast(0), "of the spark's way that its streak is long, simulated time"},
+        bits.sparkSeconds);
+  visit(v, {"spark_emission", "", between(0, brightest), "times the blackbody colour of its temperature"},
+        bits.sparkEmission);
+  visit(v, {"grain_size", "m", above(0), "of a grain of dust, across"}, bits.grainSize);
+  visit(v, {"grain_colour", "", between(0, 1), "of dust: diffuse red, green, blue"}, bits.grainColour);
+  visit(v, {"grain_reflection", "", between(0, 1), "share that dust mirrors"}, bits.grainReflection);
+}
+
 void describeLight(KeyVisitor& v, Light& light) { visitAlternatives(v, lightNames, light, LightKeys{}); }
 
 void describeRender(KeyVisitor& v, SceneDraft& draft) {
@@ -225,6 +236,7 @@ void describeRender(KeyVisitor& v, SceneDraft& draft) {
     describeVolumeLook(inner, whole.scene.render.volume);
   });
   visitTable(v, "flow", "the gas' velocity, drawn as arrows", render.flow, describeFlow);
+  visitTable(v, "bits", "how sparks and dust are drawn", render.bits, describeBitsLook);
 }
 
 }  // namespace brisance

@@ -165,6 +165,9 @@ void describeCharge(KeyVisitor& v, Charge& charge) {
   visit(v, {"emission_rate", "1/s", between(0, mostParticles), "new fuel particles afterwards", {"np_it", "5.1, 5.3"}},
         charge.emissionRate);
   visit(v, {"emission_time", "s", atLeast(0), "for how long they come, simulated time"}, charge.emissionTime);
+  visit(v, {"sparks", "", between(0, 1e6), "thrown out at the detonation"}, charge.sparks);
+  visit(v, {"spark_speed", "m/s", atLeast(0), "of the fastest spark"}, charge.sparkSpeed);
+  visit(v, {"spark_temperature", "K", atLeast(0), "of sparks at first"}, charge.sparkTemperature);
 }
 
 struct ShapeKeys {
@@ -350,11 +353,19 @@ void describeGas(KeyVisitor& v, SceneDraft& draft) {
   visit(v, {"max_substeps", "", between(1, 1e6), "per frame, beyond which the run stops as unstable"}, gas.maxSubsteps);
 }
 
+void describeBits(KeyVisitor& v, BitSettings& bits) {
+  visit(v, {"radius", "m", above(0), "of each: the smaller, the sooner gas has slowed it or carries it"}, bits.radius);
+  visit(v, {"density", "kg/m3", above(0), "of their matter"}, bits.density);
+  visit(v, {"cooling_time", "s", above(0), "in which they come to the gas' temperature, to 1/e"}, bits.coolingTime);
+}
+
 void describeExplosion(KeyVisitor& v, ParticleSettings& particles) {
   describeBurning(v, particles.burning);
   describeSootAndHeat(v, particles.burning);
   visitArray(v, {"charges", "", anyValue, "fuel laid out on a sphere at a time"}, particles.charges, Charge{},
              describeCharge);
+  visitTable(v, "sparks", "what sparks are; charges throw them", particles.sparks, describeBits);
+  visitTable(v, "dust", "what dust is; bodies give it", particles.dust, describeBits);
 }
 
 void describeRigid(KeyVisitor& v, RigidSettings& rigid) {
@@ -394,6 +405,7 @@ void describeBody(KeyVisitor& v, BodyKeys& keys) {
          {},
          "none: it keeps its temperature"},
         keys.body.warmingTime);
+  visit(v, {"dust", "", between(0, 1e6), "grains that come off its pieces when they are released"}, keys.body.dust);
   visit(v,
         {"bond_strength", "Pa", atLeast(0),
          "tension, shear and bending between pieces at which they come apart; until then they move as one; 0: they are "

@@ -42,9 +42,19 @@ BrickSource<Vec3f> centreVelocities(const FluidState& gas, float step) {
   });
 }
 
-std::uint8_t frameKind(const ParticleSet& p, std::size_t n) {
-  if (p.kind[n] == ParticleKind::soot) return 2;
-  return p.ignited[n] ? 1 : 0;
+FrameKind frameKind(const ParticleSet& p, std::size_t n) {
+  if (p.kind[n] == ParticleKind::soot) return FrameKind::soot;
+  return p.ignited[n] ? FrameKind::burningFuel : FrameKind::unburntFuel;
+}
+
+void addBits(const ParticleSet& bits, FrameKind kind, FrameParticles& out) {
+  for (std::size_t n = 0; n < bits.size(); ++n) {
+    out.position.push_back(Vec3f(bits.position[n]));
+    out.velocity.push_back(Vec3f(bits.velocity[n]));
+    out.mass.push_back(static_cast<float>(bits.mass[n]));
+    out.temperature.push_back(static_cast<float>(bits.temperature[n]));
+    out.kind.push_back(static_cast<std::uint8_t>(kind));
+  }
 }
 
 FrameParticles captureParticles(const ParticleSet& p) {
@@ -61,7 +71,7 @@ FrameParticles captureParticles(const ParticleSet& p) {
       out.velocity[n] = Vec3f(p.velocity[n]);
       out.mass[n] = static_cast<float>(p.mass[n]);
       out.temperature[n] = static_cast<float>(p.temperature[n]);
-      out.kind[n] = frameKind(p, static_cast<std::size_t>(n));
+      out.kind[n] = static_cast<std::uint8_t>(frameKind(p, static_cast<std::size_t>(n)));
     }
   });
   return out;
@@ -82,6 +92,8 @@ Frame captureWithoutGas(const WorldState& world) {
   frame.time = world.time;
   frame.report = world.report;
   frame.particles = captureParticles(world.particles);
+  addBits(world.sparks.particles, FrameKind::spark, frame.particles);
+  addBits(world.dust.particles, FrameKind::dust, frame.particles);
   const RigidBodies& b = world.bodies;
   for (std::size_t n = 0; n < b.size(); ++n)
     frame.bodies.push_back({b.name[n],

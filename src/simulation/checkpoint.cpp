@@ -7,7 +7,7 @@
 namespace brisance {
 
 namespace {
-constexpr char magic[16] = "brisance-ckpt-2";
+constexpr char magic[16] = "brisance-ckpt-3";
 
 class Writer {
  public:
@@ -104,9 +104,13 @@ void archive(Archive& a, State& world) {
   for (auto* grid :
        {&gas.velocity.u, &gas.velocity.v, &gas.velocity.w, &gas.pressure, &gas.temperature, &gas.soot, &gas.flame})
     a.fixedArray(grid->values);
-  forEachField(world.particles, [&](auto& field) { a.array(field); });
-  a.value(world.particles.nextId);
+  for (auto* particles : {&world.particles, &world.sparks.particles, &world.dust.particles}) {
+    forEachField(*particles, [&](auto& field) { a.array(field); });
+    a.value(particles->nextId);
+  }
   a.array(world.emitted);
+  a.array(world.sparks.given);
+  a.array(world.dust.given);
   auto& bodies = world.bodies;
   a.fixedArray(bodies.position);
   a.fixedArray(bodies.orientation);
@@ -140,8 +144,10 @@ void readCheckpoint(const std::string& bytes, const std::string& fileName, World
     if (pair.a >= world.bodies.size() || pair.b >= world.bodies.size())
       reader.refuse("names bodies that are not there");
   if (!reader.atEnd()) reader.refuse("has bytes left over");
-  for (std::size_t size : {world.particles.position.size(), world.particles.mass.size(), world.particles.kind.size()})
-    if (size != world.particles.size()) reader.refuse("holds particles of different counts");
+  for (ParticleSet* particles : {&world.particles, &world.sparks.particles, &world.dust.particles})
+    forEachField(*particles, [&](const auto& field) {
+      if (field.size() != particles->size()) reader.refuse("holds particles of different counts");
+    });
 }
 
 }  // namespace brisance

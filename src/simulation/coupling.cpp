@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "base/vector_path.h"
 #include "grid/interpolate.h"
 #include "particles/burning.h"
@@ -44,10 +45,57 @@ void burnIntoGas(WorldState& world, const SimulationSettings& settings, double d
   removeSpent(world.particles, burning, dt);
 }
 
+namespace {
+/// Somewhere on a mesh; triangles count alike, whatever their size: most places lie where it is fine, at its cuts.
+Vec3d somewhereOn(const TriangleMesh& mesh, const Random& random, std::uint64_t index) {
+  const Triangle& t = mesh.triangles[random.below(mesh.triangles.size(), 3 * index)];
+  double u = random.uniform(3 * index + 1), v = random.uniform(3 * index + 2);
+  if (u + v > 1) u = 1 - u, v = 1 - v;
+  return mesh.vertices[t[0]] * (1 - u - v) + mesh.vertices[t[1]] * u + mesh.vertices[t[2]] * v;
+}
+
+/// The pieces that a body of the scene was broken in.
+std::vector<std::size_t> piecesOf(const RigidBodies& bodies, std::size_t origin) {
+  std::vector<std::size_t> pieces;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies.origin[b] == origin) pieces.push_back(b);
+  return pieces;
+}
+
+void giveDust(WorldState& world, const SimulationSettings& settings) {
+  constexpr double spread = 0.4;  // [m/s]
+  const RigidBodies& bodies = world.bodies;
+  const Random random(settings.seed, Stream::dust);
+  world.dust.given.resize(settings.bodies.size(), 0);
+  for (std::size_t origin = 0; origin < settings.bodies.size(); ++origin) {
+    const BodySettings& body = settings.bodies[origin];
+    if (world.dust.given[origin] || body.dust == 0 || world.time < body.releaseTime) continue;
+    world.dust.given[origin] = 1;
+    const std::vector<std::size_t> pieces = piecesOf(bodies, origin);
+    for (int n = 0; n < body.dust; ++n) {
+      const std::uint64_t id = world.dust.particles.nextId;
+      const std::size_t b = pieces[static_cast<std::size_t>(n) % pieces.size()];
+      const Pose pose{bodies.position[b], bodies.orientation[b]};
+      const Vec3d scatter(random.uniform(6 * id + 3) - .5, random.uniform(6 * id + 4) - .5,
+                          random.uniform(6 * id + 5) - .5);
+      addBit(world.dust, settings.particles.dust, pose * somewhereOn(*bodies.mesh[b], random, 2 * id),
+             bodies.linearVelocity[b] + scatter * (2 * spread), body.temperature);
+    }
+  }
+}
+}  // namespace
+
+void giveBits(WorldState& world, const SimulationSettings& settings) {
+  throwSparks(world.sparks, settings.particles, world.time, settings.seed);
+  giveDust(world, settings);
+}
+
 void carryParticles(WorldState& world, const SimulationSettings& settings, double dt) {
   GasAround around{world.gas.velocity, world.gas.temperature, world.gas.solid.openShare};
   for (int axis = 0; axis < 3; ++axis) around.periodic[axis] = settings.fluid.faces[2 * axis] == FaceKind::periodic;
   stepParticles(world.particles, around, settings.particles.burning, dt);
+  stepBits(world.sparks, around, settings.particles.sparks, settings.rigid.gravity, dt);
+  stepBits(world.dust, around, settings.particles.dust, settings.rigid.gravity, dt);
   ignite(world.particles, settings.particles.burning);
 }
 

@@ -8,6 +8,8 @@ namespace brisance {
 /// Particles burn: their fuel becomes heat, expansion, soot and flame on the grid.
 void burnIntoGas(WorldState& world, const SimulationSettings& settings, double dt);
 /// The gas moves and heats particles.
+/// Sparks of charges whose time has come; dust from where a body's pieces are released.
+void giveBits(WorldState& world, const SimulationSettings& settings);
 void carryParticles(WorldState& world, const SimulationSettings& settings, double dt);
 /// Gas carries the vertices of bodies that swell, and makes them rigid when they are released.
 void swellBodies(WorldState& world, double dt);

@@ -58,6 +58,7 @@ struct BodySettings {
   bool swells = false;                ///< until then gas carries its vertices instead
   double temperature = 300;           ///< [K]
   std::optional<double> warmingTime;  ///< [s] in which it comes to the gas' temperature, to 1/e; none: it keeps its own
+  int dust = 0;                       ///< grains that leave its surface when it is released
   double bondStrength = 0;            ///< [Pa] at which its pieces come apart; 0: they are apart from the start
 };
 

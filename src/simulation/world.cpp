@@ -74,6 +74,7 @@ void substep(WorldState& world, const SimulationSettings& s, double dt) {
   if (block) timed(report, "solids", [&] { blockGas(world, s, false); });
   world.time += dt;
   emitFuel(world.particles, s.particles, world.time, s.fluid.ambientTemperature, s.seed, world.emitted);
+  giveBits(world, s);
 }
 
 std::string findNotFinite(const RigidBodies& bodies) {
@@ -127,6 +128,7 @@ World::World(SimulationSettings settings) : settings_(std::move(settings)), stat
   }
   emitFuel(state_->particles, settings_.particles, 0, settings_.fluid.ambientTemperature, settings_.seed,
            state_->emitted);
+  giveBits(*state_, settings_);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;

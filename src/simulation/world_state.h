@@ -5,6 +5,7 @@
 
 #include "fluid/fluid_step.h"
 #include "fluid/moving_solids.h"
+#include "particles/bits.h"
 #include "particles/deposit.h"
 #include "particles/particle_order.h"
 #include "particles/particle_set.h"
@@ -41,6 +42,7 @@ struct WorldState {
   std::optional<StepLimits> limits;  ///< of the gas as it is, where the last sub-step has found them
   ParticleSet particles;
   std::vector<std::uint64_t> emitted;  ///< per charge
+  Bits sparks, dust;
   RigidBodies bodies;
   std::vector<CollisionShape> shapes;   ///< of bodies, where they collide
   std::optional<SolidStamper> stamper;  ///< where moving bodies block the gas
