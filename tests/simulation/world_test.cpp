@@ -37,6 +37,16 @@ SimulationSettings swellingScene() {
   return s;
 }
 
+/// A pane that gives dust when it is released in the middle of the third frame, and a charge that throws sparks then.
+SimulationSettings dustyScene() {
+  SimulationSettings s = smallScene();
+  s.particles.charges[1].time = 2.5 * s.frameTime;
+  s.particles.charges[1].sparks = 30;
+  s.bodies.back().releaseTime = 2.5 * s.frameTime;
+  s.bodies.back().dust = 50;
+  return s;
+}
+
 /// The same above a floor that the pieces land on.
 SimulationSettings landingBalloon() {
   SimulationSettings s = swellingScene();
@@ -132,16 +142,15 @@ TEST(World, GasStaysBehindAPaneThatBlocksItUntilThePaneGoes) {
   double behind = 0, before = 0;
   constexpr int paneLayer = 9;  // cells from here on have their centres in front of it
   for (const auto& brick : gas.temperature.bricks)
-    forSamplesOf(brick.corner, gas.temperature.size, [&](int n, int, int, int k) {
-      (k < paneLayer ? behind : before) += std::abs(brick.values[n] - 300);
-    });
+    forSamplesOf(brick.corner, gas.temperature.size,
+                 [&](int n, int, int, int k) { (k < paneLayer ? behind : before) += std::abs(brick.values[n] - 300); });
   EXPECT_GT(behind, 1e3);
   EXPECT_LT(before, 1e-6 * behind);
 }
 
 TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
   for (const SimulationSettings& settings :
-       {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon()}) {
+       {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon(), dustyScene()}) {
     const Frame undisturbed = worldAt(settings, 8).capture();
     for (const int stop : {2, 4, 7}) {
       const std::string bytes = checkpointOf(worldAt(settings, stop));
@@ -156,7 +165,7 @@ TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
 
 TEST(World, AnyThreadsAndVectorWidthGiveTheSameBits) {
   for (const SimulationSettings& settings :
-       {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon()}) {
+       {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon(), dustyScene()}) {
     std::vector<Frame> frames;
     for (const int threads : {1, 2, 3})
       for (const VectorPath path : {VectorPath::plain, VectorPath::avx2, VectorPath::avx512}) {
@@ -166,6 +175,23 @@ TEST(World, AnyThreadsAndVectorWidthGiveTheSameBits) {
       }
     for (const Frame& frame : frames) expectSame(frame, frames[0]);
   }
+}
+
+std::size_t countOf(const Frame& frame, FrameKind kind) {
+  const auto& kinds = frame.particles.kind;
+  return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), static_cast<std::uint8_t>(kind)));
+}
+
+TEST(World, DustComesOffThePaneThatIsReleasedAndSparksWithTheirCharge) {
+  const Frame before = worldAt(dustyScene(), 3).capture(), after = worldAt(dustyScene(), 4).capture();
+  EXPECT_EQ(countOf(before, FrameKind::dust) + countOf(before, FrameKind::spark), 0u);
+  EXPECT_EQ(countOf(after, FrameKind::dust), 50u);
+  EXPECT_GT(countOf(after, FrameKind::spark), 0u);
+  for (std::size_t p = 0; p < after.particles.kind.size(); ++p)
+    if (after.particles.kind[p] == static_cast<std::uint8_t>(FrameKind::dust)) {
+      EXPECT_LT(std::abs(after.particles.position[p].x - .5f), .25f);
+      EXPECT_LT(std::abs(after.particles.position[p].y - .5f), .3f);
+    }
 }
 
 double spanOf(const Frame& frame) {
