@@ -177,7 +177,10 @@ std::int64_t predictedParticles(const SimulationSettings& settings) {
     count += charge.particles + charge.emissionRate * std::min(charge.emissionTime, end - charge.time);
   }
   const double sootPerFuel = b.sootOnce ? 1 : std::floor(b.mass * b.sootPerMass / b.sootThreshold);
-  return static_cast<std::int64_t>(count * (1 + sootPerFuel));
+  double bits = 0;
+  for (const Charge& charge : settings.particles.charges) bits += charge.sparks;
+  for (const BodySettings& body : settings.bodies) bits += body.dust;
+  return static_cast<std::int64_t>(count * (1 + sootPerFuel) + bits);
 }
 
 }  // namespace brisance
