@@ -69,7 +69,7 @@ TEST(DrawnBits, AGrainLiesWhereItIsAndTurnsFromFrameToFrame) {
   ASSERT_EQ(mesh.triangles.size(), 2u);
   for (std::size_t t = 0; t < 2; ++t)
     for (const std::uint32_t v : mesh.triangles[t])
-      EXPECT_LT(length(mesh.vertices[v] - Vec3d(t + 1.0, 0, 0)), look.grainSize);
+      EXPECT_LT(length(mesh.vertices[v] - Vec3d(1.0 + static_cast<double>(t), 0, 0)), look.grainSize);
   EXPECT_EQ(drawn(frame, look).bodies[0].mesh->vertices, mesh.vertices);
   frame.index = 2;
   EXPECT_NE(drawn(frame, look).bodies[0].mesh->vertices, mesh.vertices);
