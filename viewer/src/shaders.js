@@ -216,7 +216,7 @@ void main() {
     float through = exp(-kappa * stride);
     vec3 glow = texture(colours, vec2((sampled.g * 255.0 + 0.5) / 256.0, 0.5)).rgb * emission;
     float fire = block.b / max(1.0 - block.b, 0.02);
-    vec3 lit = smokeColour * (ambient * block.r + sunLight * block.g + fire * vec3(1.0, 0.42, 0.13));
+    vec3 lit = smokeColour * (ambient * block.r + sunLight * block.g + 0.3 * fire * vec3(1.0, 0.42, 0.13));
     light += passes * (1.0 - through) * (glow + lit);
     passes *= through;
     t += stride;

@@ -101,7 +101,7 @@ export class Stage {
       uniforms.sunWays.value[n].set(...sun.direction).normalize().negate();
       uniforms.sunLights.value[n].set(...sun.radiance);
     });
-    if (suns.length > 0) this.gas.uniforms.sunLight.value.set(...suns[0].radiance);
+    if (suns.length > 0) this.gas.uniforms.sunLight.value.set(...suns[0].radiance).multiplyScalar(0.25);
     run.lights.filter(light => light.type === 'point').slice(0, 2).forEach((lamp, n) => {
       uniforms.lamps.value[4 + n].set(...lamp.position, lamp.falloff > 0 ? 2 : 0);
       uniforms.lampLights.value[4 + n].set(...lamp.intensity);
