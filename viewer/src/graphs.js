@@ -47,7 +47,7 @@ export function drawGraph(canvas, graph, known, count, place) {
   if (width === 0) return {};
   canvas.width = width * ratio;
   canvas.height = height * ratio;
-  const pen = canvas.getContext('2d');
+  const pen = canvas.getContext('2d', {willReadFrequently: true});  // drawn without the card, which is busy
   pen.scale(ratio, ratio);
   const series = seriesOf(graph, known), values = Object.values(series).flatMap(line => line.map(point => point[1]));
   let least = Math.min(0, ...values), most = Math.max(0, ...values);

@@ -2,8 +2,8 @@
 import {Controls} from './controls.js';
 import {Moments} from './moments.js';
 import {Player} from './player.js';
-import {Source} from './source.js';
-import {Stage} from './stage.js';
+import {parsed, Source} from './source.js';
+import {contextAttributes, Stage} from './stage.js';
 
 const pollSeconds = 1;
 
@@ -14,12 +14,11 @@ function say(title, text) {
 }
 const saidNothing = () => { document.getElementById('message').hidden = true; };
 
-function missing() {
-  const gl = document.createElement('canvas').getContext('webgl2');
+/** What this browser lacks; nothing if all is there. */
+function lackOf(gl) {
   if (!gl) return 'WebGL 2 is missing. The player draws with it: switch on graphics acceleration in this browser, or open the page in another (Chrome, Edge and Firefox have it, Safari from 15).';
   if (!gl.getExtension('EXT_color_buffer_float')) return 'Pictures of floating-point numbers (EXT_color_buffer_float) are missing in this browser’s WebGL 2. Another browser or newer graphics driver has them.';
   if (typeof DecompressionStream === 'undefined') return 'This browser is too old to unpack the run (DecompressionStream is missing). Any of 2023 or later will do.';
-  gl.getExtension('WEBGL_lose_context')?.loseContext();
   return null;
 }
 
@@ -30,6 +29,18 @@ function showTitle(run) {
     const note = Object.assign(document.createElement('small'), {textContent: `${run.timeScale}× time`});
     document.getElementById('title').append(note);
   }
+}
+
+/** Calls back when the card has done all that it was told until now. */
+function whenDrawn(gl, done) {
+  const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  gl.flush();
+  const waiting = setInterval(() => {
+    if (gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) return;
+    clearInterval(waiting);
+    gl.deleteSync(fence);
+    done();
+  }, 10);
 }
 
 /** A run that still goes on is asked how far it is. */
@@ -45,15 +56,26 @@ async function poll(source, moments, trouble) {
 }
 
 async function begin() {
-  const lack = missing();
-  if (lack) return say('This browser cannot show the run', lack);
   const source = new Source();
-  const [run, glb] = await Promise.all([source.json('run.json'), source.bytes('pieces.glb')]);
+  // Asked for before the drawing context is made, which takes a while.
+  const asked = ['run.json', 'state.json', 'pieces.glb'].map(name => source.bytes(name));
+  asked.forEach(answer => answer.catch(() => {}));  // told of below
+  const canvas = document.getElementById('view');
+  const gl = canvas.getContext('webgl2', contextAttributes);
+  const lack = lackOf(gl);
+  if (lack) return say('This browser cannot show the run', lack);
+  const [run, state] = await Promise.all(asked.slice(0, 2).map(async bytes => parsed(await bytes)));
   showTitle(run);
-  const stage = new Stage(document.getElementById('view'), run);
   const moments = new Moments(source, run);
-  await stage.load(glb);
+  moments.grow(state);
+  const stage = new Stage(canvas, gl, run);
+  await stage.load(await asked[2]);
   const player = new Player(stage, moments, run, source);
+  player.onFirst = () => {
+    saidNothing();
+    whenDrawn(gl, () => { document.body.dataset.started = Math.round(performance.now()); });
+  };
+  player.onWhole = () => whenDrawn(gl, () => { document.body.dataset.ready = Math.round(performance.now()); });
   const controls = new Controls(player);
   let drawn = 0;
   moments.listeners.arrived = (place, moment) => {
@@ -66,14 +88,9 @@ async function begin() {
     }
   };
   moments.listeners.trouble = text => console.warn(text);
+  moments.known.forEach((moment, place) => moment && moments.listeners.arrived(place, moment));
   await poll(source, moments, text => (text ? console.warn(text) : undefined));
   if (moments.count === 0) say('No frame is there yet', 'The run has only begun; the first frame will appear here.');
-  const waiting = setInterval(() => {
-    if (!moments.known.some(Boolean)) return;
-    clearInterval(waiting);
-    saidNothing();
-    document.body.dataset.ready = Math.round(performance.now());
-  }, 30);
   window.brisance = {player, moments, stage, controls};
 }
 

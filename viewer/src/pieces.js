@@ -1,6 +1,6 @@
 // All bodies as a few meshes, one for each material: a vertex knows its body, and a small picture has every body's pose.
 import {
-  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, FloatType, GLSL3, Mesh, NearestFilter, RawShaderMaterial,
+  BufferAttribute, BufferGeometry, Color, DataTexture, FloatType, GLSL3, LinearMipmapNearestFilter, Mesh, NearestFilter, NoColorSpace, RawShaderMaterial,
   RGBAFormat, Vector3, Vector4,
 } from 'three';
 import {GLTFLoader} from 'three/examples/jsm/loaders/GLTFLoader.js';
@@ -41,6 +41,7 @@ export class Pieces {
       middle: {value: this.middle}, colouring: {value: 0}, ranges: {value: new Vector3(1, 293, 294)},
       solidDepth: {value: null}, eye: {value: new Vector3()}, ambient: {value: new Vector3()}, sky: {value: new Vector3()},
       sunWays: {value: [new Vector3(0, 1, 0), new Vector3(0, 1, 0)]}, sunLights: {value: [new Vector3(), new Vector3()]},
+      sunCount: {value: 0}, lampCount: {value: 0},
       lamps: {value: Array.from({length: 6}, () => new Vector4())},
       lampLights: {value: Array.from({length: 6}, () => new Vector3())},
     };
@@ -91,15 +92,20 @@ export class Pieces {
 
   materialFor(material, isGlass) {
     const picture = material.map ?? material.emissiveMap;
+    if (picture) {
+      picture.colorSpace = NoColorSpace;  // the shader decodes it
+      picture.minFilter = LinearMipmapNearestFilter;
+      picture.needsUpdate = true;
+    }
     const emission = (material.emissive ?? new Color(0, 0, 0)).clone().multiplyScalar(material.emissiveIntensity ?? 1);
     const isInside = /inside/.test(material.name);
     const shine = 1 - (material.roughness ?? 1);
     const made = new RawShaderMaterial({
-      glslVersion: GLSL3, vertexShader: pieceVertex, fragmentShader: pieceFragment, side: DoubleSide,
-      defines: isGlass ? {GLASS: 1, EDGE: isInside ? '1.0' : '0.0'} : {},
+      glslVersion: GLSL3, vertexShader: pieceVertex, fragmentShader: pieceFragment, side: material.side,
+      defines: {...(isGlass && {GLASS: 1, EDGE: isInside ? '1.0' : '0.0'}), ...(picture && {PICTURE: 1})},
       uniforms: {
         ...this.uniforms,
-        picture: {value: picture ?? null}, hasPicture: {value: picture ? 1 : 0},
+        picture: {value: picture ?? null},
         colour: {value: material.color ?? new Color(0.7, 0.7, 0.7)}, emission: {value: emission},
         shine: {value: 0.25 * Math.max(0, shine)},
       },

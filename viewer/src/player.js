@@ -145,7 +145,16 @@ export class Player {
     this.isDirty = false;
     this.putPoses();
     this.askForGas();
+    if (!this.moments.known[this.frame]) return;
     this.stage.draw(this.showsGas);
     this.onFrame();
+    this.onFirst?.();
+    this.onFirst = null;
+    if (this.drawn.gas < 0 || !this.stage.canDrawGas) {
+      this.isDirty = true;  // until gas is there as well
+    } else {
+      this.onWhole?.();
+      this.onWhole = null;
+    }
   }
 }

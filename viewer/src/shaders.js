@@ -60,7 +60,8 @@ in vec4 tint;
 uniform sampler2D picture;
 uniform vec3 colour, emission, eye, ambient, sky;
 uniform highp sampler2D solidDepth;
-uniform float hasPicture, shine;
+uniform float shine;
+uniform int sunCount, lampCount;
 uniform vec3 sunWays[2], sunLights[2];
 uniform vec4 lamps[6];       // place, and how it falls off: 0 or 2
 uniform vec3 lampLights[6];
@@ -78,8 +79,8 @@ vec3 skyAlong(vec3 way) {
 // What reaches a surface: from all around (less from below), suns, lamps and fire.
 vec3 arriving(vec3 n) {
   vec3 sum = ambient * (0.72 + 0.28 * n.y);
-  for (int s = 0; s < 2; ++s) sum += sunLights[s] * max(dot(n, sunWays[s]), 0.0);
-  for (int l = 0; l < 6; ++l) {
+  for (int s = 0; s < sunCount; ++s) sum += sunLights[s] * max(dot(n, sunWays[s]), 0.0);
+  for (int l = 0; l < lampCount; ++l) {
     vec3 way = lamps[l].xyz - place;
     float square = dot(way, way) + 0.02;
     float share = max(dot(n, way) * inversesqrt(square), 0.0);
@@ -89,8 +90,8 @@ vec3 arriving(vec3 n) {
 }
 vec3 glints(vec3 n, vec3 toEye, float sharpness) {
   vec3 sum = vec3(0.0), back = reflect(-toEye, n);
-  for (int s = 0; s < 2; ++s) sum += sunLights[s] * pow(max(dot(back, sunWays[s]), 0.0), sharpness);
-  for (int l = 0; l < 6; ++l) {
+  for (int s = 0; s < sunCount; ++s) sum += sunLights[s] * pow(max(dot(back, sunWays[s]), 0.0), sharpness);
+  for (int l = 0; l < lampCount; ++l) {
     vec3 way = lamps[l].xyz - place;
     float square = dot(way, way) + 0.02;
     sum += 0.6 * lampLights[l] * pow(max(dot(back, way * inversesqrt(square)), 0.0), 0.25 * sharpness)
@@ -104,17 +105,24 @@ void main() {
   if (tint.a < 0.5) {
     if (texelFetch(solidDepth, ivec2(gl_FragCoord.xy), 0).r < gl_FragCoord.z) discard;
     float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(n, toEye), 0.0), 5.0);
-    vec3 mirrored = skyAlong(reflect(-toEye, n)) * 1.6 + arriving(n) * 0.05;
+    vec3 mirrored = skyAlong(reflect(-toEye, n));
     float edge = EDGE;
     vec3 body = vec3(0.55, 0.85, 0.75) * arriving(n) * edge;
-    light = vec4(fresnel * mirrored + body * 0.35 + glints(n, toEye, 220.0) * 2.0, min(1.0, fresnel + 0.07 + 0.35 * edge));
+    light = vec4(fresnel * mirrored + body * 0.3 + glints(n, toEye, 220.0), min(1.0, 0.8 * fresnel + 0.3 * edge));
     return;
   }
 #endif
-  vec3 own = mix(colour, colour * texture(picture, texturePlace).rgb, hasPicture);
-  if (tint.a > 0.5) own = tint.rgb;
-  vec3 glow = emission * mix(vec3(1.0), texture(picture, texturePlace).rgb, hasPicture);
-  light = vec4(own * arriving(n) + glow + shine * glints(n, toEye, 40.0), 1.0);
+  // Decoded here (a cubic near the curve of sRGB): cards without hardware decode every texel of a filter.
+#ifdef PICTURE
+  vec3 code = texture(picture, texturePlace).rgb;
+#else
+  vec3 code = vec3(1.0);
+#endif
+  vec3 painted = code * (code * (code * 0.305306011 + 0.682171111) + 0.012522878);
+  vec3 own = tint.a > 0.5 ? tint.rgb : colour * painted;
+  vec3 sum = own * arriving(n) + emission * painted;
+  if (shine > 0.0) sum += shine * glints(n, toEye, 40.0);
+  light = vec4(sum, 1.0);
 }
 `;
 
@@ -255,24 +263,43 @@ export const developFragment = /* glsl */ `
 precision highp float;
 in vec2 spot;
 uniform sampler2D solid, glass, before, behind, halo, halo2;
+uniform highp sampler2D solidDepth;
 uniform float exposure, hasGas;
-uniform vec2 gasTexel;
+uniform vec2 gasTexel, depthRange;
 out vec4 shown;
 float filmCurve(float x) {
   const float start = 0.35, room = 1.0 - start, white = (24.0 - start) / room;
   float s = (x - start) / room;
   return x <= start ? x : min(1.0, start + room * s * (1.0 + s / (white * white)) / (1.0 + s));
 }
+float metres(vec2 at) { return depthRange.x * depthRange.y / (depthRange.y - texture(solidDepth, at).r * (depthRange.y - depthRange.x)); }
+// Of the four pixels of gas around, those whose rays ended at a like depth.
+vec4 shares;
+vec2 corner;
+void chooseNeighbours() {
+  vec2 place = spot / gasTexel - 0.5, whole = floor(place), part = place - whole;
+  corner = (whole + 0.5) * gasTexel;
+  shares = vec4((1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y);
+  float here = metres(spot);
+  vec4 depths = vec4(metres(corner), metres(corner + gasTexel * vec2(1, 0)), metres(corner + gasTexel * vec2(0, 1)), metres(corner + gasTexel));
+  vec4 apart = abs(depths - here) / (0.02 * here + 0.02);
+  shares = (shares + 0.01) / (1.0 + apart * apart);
+  shares /= dot(shares, vec4(1.0));
+}
 vec4 smoothed(sampler2D gas) {
-  vec4 sum = texture(gas, spot) * 0.4;
-  sum += 0.15 * (texture(gas, spot + gasTexel * vec2(0.9, 0.3)) + texture(gas, spot + gasTexel * vec2(-0.3, 0.9))
-               + texture(gas, spot + gasTexel * vec2(-0.9, -0.3)) + texture(gas, spot + gasTexel * vec2(0.3, -0.9)));
-  return sum;
+#ifndef CAREFUL
+  return texture(gas, spot);
+#endif
+  return shares.x * texture(gas, corner) + shares.y * texture(gas, corner + gasTexel * vec2(1, 0))
+       + shares.z * texture(gas, corner + gasTexel * vec2(0, 1)) + shares.w * texture(gas, corner + gasTexel);
 }
 void main() {
   vec3 light = texture(solid, spot).rgb;
   vec4 g = texture(glass, spot);
   if (hasGas > 0.5) {
+#ifdef CAREFUL
+    chooseNeighbours();
+#endif
     vec4 back = smoothed(behind), front = smoothed(before);
     light = light * back.a + back.rgb;
     light = light * (1.0 - g.a) + g.rgb;

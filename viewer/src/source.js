@@ -23,8 +23,7 @@ export class Source {
       const element = this.elements.get(name);
       if (!element) throw new Error(`${name} is not in this file`);
       const bytes = fromBase64(element.textContent);
-      element.remove();  // it is asked for once
-      this.elements.set(name, null);
+      if (name.startsWith('moments/')) this.elements.delete(name), element.remove();  // it is asked for once
       return bytes;
     }
     const answer = await fetch(`data/${name}`);
@@ -32,5 +31,8 @@ export class Source {
     return new Uint8Array(await answer.arrayBuffer());
   }
 
-  async json(name) { return JSON.parse(new TextDecoder().decode(await this.bytes(name))); }
+  async json(name) { return parsed(await this.bytes(name)); }
 }
+
+/** @param {Uint8Array} bytes of JSON */
+export function parsed(bytes) { return JSON.parse(new TextDecoder().decode(bytes)); }

@@ -14,8 +14,18 @@ import {blurFragment, developFragment, screenVertex, skyFragment} from './shader
 const qualities = [
   {screen: 2, gas: 0.5, pace: 0.8}, {screen: 1.5, gas: 0.5, pace: 0.9}, {screen: 1, gas: 0.75, pace: 1},
   {screen: 1, gas: 0.5, pace: 1.2}, {screen: 1, gas: 0.34, pace: 1.4}, {screen: 0.8, gas: 0.3, pace: 1.8},
-  {screen: 0.65, gas: 0.28, pace: 2.2}, {screen: 0.5, gas: 0.28, pace: 2.6},
+  {screen: 0.65, gas: 0.3, pace: 2.2}, {screen: 0.5, gas: 0.35, pace: 2.6}, {screen: 0.4, gas: 0.4, pace: 3},
+  {screen: 0.33, gas: 0.45, pace: 3},
 ];
+/** From here on edges before gas are not looked after. */
+const hasty = 5;
+
+const fireColour = new Vector3(0.8, 0.4, 0.15);  // of its light on everything else
+const nearest = 0.05, farthest = 200;  // [m] from the camera
+
+export const contextAttributes = {
+  alpha: false, antialias: false, depth: false, stencil: false, powerPreference: 'high-performance',
+};
 
 const fullScreen = new BufferGeometry()
   .setAttribute('position', new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
@@ -35,25 +45,25 @@ function layer(options = {}) {
   });
 }
 
-function withDepth() {
+function withDepth(samples) {
   const depthTexture = new DepthTexture(8, 8, UnsignedIntType);
   depthTexture.minFilter = depthTexture.magFilter = NearestFilter;
-  return layer({depthTexture});
+  return layer({depthTexture, samples});
 }
 
 export class Stage {
-  /** @param {HTMLCanvasElement} canvas @param {object} run its description */
-  constructor(canvas, run) {
+  /** @param {HTMLCanvasElement} canvas @param {WebGL2RenderingContext} gl @param {object} run its description */
+  constructor(canvas, gl, run) {
     this.run = run;
-    this.renderer = new WebGLRenderer({canvas, antialias: false, powerPreference: 'high-performance'});
+    this.renderer = new WebGLRenderer({canvas, context: gl, ...contextAttributes});
     this.renderer.autoClear = false;
-    const gl = this.renderer.getContext();
+    this.renderer.debug.checkShaderErrors = false;  // asking would wait for the card, program by program
     const info = gl.getExtension('WEBGL_debug_renderer_info');
     this.card = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
     this.isSoftware = /swiftshader|llvmpipe|softpipe|software/i.test(this.card);
-    this.quality = this.isSoftware ? 6 : 2;
+    this.quality = this.isSoftware ? 7 : 2;
     this.bestQuality = this.isSoftware ? 3 : 0;
-    this.camera = new PerspectiveCamera(40, 1, 0.02, 200);
+    this.camera = new PerspectiveCamera(40, 1, nearest, farthest);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
@@ -63,11 +73,17 @@ export class Stage {
     this.makeLayers();
     this.makeBodies();
     this.resize();
+    // The card begins with these while the pieces are still on their way.
+    for (const mesh of [this.sky, this.develop]) this.renderer.compile(mesh, this.flat);
+    this.canDrawGas = false;
+    Promise.all([this.gasPass, this.blur].map(mesh => this.renderer.compileAsync(mesh, this.flat)))
+      .then(() => { this.canDrawGas = true; });
   }
 
   makeLayers() {
-    this.solidLayer = withDepth();
-    this.glassLayer = withDepth();
+    const samples = this.isSoftware ? 0 : 4;
+    this.solidLayer = withDepth(samples);
+    this.glassLayer = withDepth(samples);
     this.halo = [layer({depthBuffer: false}), layer({depthBuffer: false})];
     const {background, exposureStops} = this.run;
     this.skyUniforms = {toWorld: {value: this.toWorld}, eye: {value: new Vector3()}, sky: {value: new Vector3(...background)}};
@@ -78,8 +94,9 @@ export class Stage {
       solid: {value: this.solidLayer.texture}, glass: {value: this.glassLayer.texture}, before: {value: null},
       behind: {value: null}, halo: {value: this.halo[0].texture}, halo2: {value: this.halo[1].texture},
       exposure: {value: 2 ** exposureStops}, hasGas: {value: 0}, gasTexel: {value: new Vector2()},
+      solidDepth: {value: this.solidLayer.depthTexture}, depthRange: {value: new Vector2(nearest, farthest)},
     };
-    this.develop = pass(developFragment, this.developUniforms);
+    this.develop = pass(developFragment, this.developUniforms, {defines: {CAREFUL: 1}});
   }
 
   makeBodies() {
@@ -97,34 +114,41 @@ export class Stage {
     uniforms.sky.value.set(...run.background);
     uniforms.ambient.value.set(...run.ambient);
     const suns = run.lights.filter(light => light.type === 'sun').slice(0, 2);
+    uniforms.sunCount.value = suns.length;
     suns.forEach((sun, n) => {
       uniforms.sunWays.value[n].set(...sun.direction).normalize().negate();
       uniforms.sunLights.value[n].set(...sun.radiance);
     });
     if (suns.length > 0) this.gas.uniforms.sunLight.value.set(...suns[0].radiance).multiplyScalar(0.25);
-    run.lights.filter(light => light.type === 'point').slice(0, 2).forEach((lamp, n) => {
-      uniforms.lamps.value[4 + n].set(...lamp.position, lamp.falloff > 0 ? 2 : 0);
-      uniforms.lampLights.value[4 + n].set(...lamp.intensity);
-    });
     this.fireStrength = run.lights.find(light => light.type === 'fire')?.strength ?? 0.5;
+    this.lamps = run.lights.filter(light => light.type === 'point').slice(0, 2);
+    this.setLamps();
   }
 
   async load(glb) {
     await this.pieces.load(glb);
     for (const mesh of this.pieces.solids) this.solids.add(mesh);
     for (const mesh of this.pieces.glasses) this.glasses.add(mesh);
+    for (const scene of [this.solids, this.glasses]) this.renderer.compile(scene, this.camera);
   }
 
   setGas(gas) {
     this.gas.set(gas);
-    const {lamps, lampLights} = this.pieces.uniforms;
-    for (let n = 0; n < 4; ++n) {
-      const light = this.gas.lights[n];
-      lampLights.value[n].set(0, 0, 0);
-      if (!light) continue;
-      lamps.value[n].set(...light.place, 2);
-      lampLights.value[n].set(1.0, 0.5, 0.2).multiplyScalar(light.intensity * this.fireStrength * 0.8);
-    }
+    this.setLamps();
+  }
+
+  /** The scene's lamps, and the fire as some more. */
+  setLamps() {
+    const {lamps, lampLights, lampCount} = this.pieces.uniforms;
+    this.lamps.forEach((lamp, n) => {
+      lamps.value[n].set(...lamp.position, lamp.falloff > 0 ? 2 : 0);
+      lampLights.value[n].set(...lamp.intensity);
+    });
+    this.gas.lights.forEach((light, n) => {
+      lamps.value[this.lamps.length + n].set(...light.place, 2);
+      lampLights.value[this.lamps.length + n].copy(fireColour).multiplyScalar(light.intensity * this.fireStrength);
+    });
+    lampCount.value = this.lamps.length + this.gas.lights.length;
   }
 
   setColouring(mode) {
@@ -167,6 +191,11 @@ export class Stage {
     this.halo[0].setSize(pixels(gw / 3), pixels(gh / 3));
     this.halo[1].setSize(pixels(gw / 9), pixels(gh / 9));
     this.gas.uniforms.pace.value = pace;
+    const isCareful = this.quality < hasty;
+    if (Boolean(this.develop.material.defines.CAREFUL) !== isCareful) {
+      this.develop.material.defines = isCareful ? {CAREFUL: 1} : {};
+      this.develop.material.needsUpdate = true;
+    }
     this.developUniforms.gasTexel.value.set(1 / gw, 1 / gh);
     this.particles.uniforms.size.value = h;
     this.camera.aspect = width / Math.max(height, 1);
@@ -203,7 +232,7 @@ export class Stage {
     renderer.clear();
     this.pieces.uniforms.solidDepth.value = this.solidLayer.depthTexture;
     if (this.glasses.children.length > 0) this.drawGlass();
-    const hasGas = showsGas && this.gas.isThere;
+    const hasGas = showsGas && this.canDrawGas && this.gas.isThere;
     this.developUniforms.hasGas.value = hasGas ? 1 : 0;
     if (hasGas) this.drawGas();
     this.drawInto(null, this.develop);
