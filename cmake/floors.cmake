@@ -34,4 +34,5 @@ brisance_floor(fracture USES grid mesh LIBRARIES Eigen3::Eigen Boost::headers TB
 brisance_floor(frame USES grid mesh LIBRARIES ${OPENVDB_LIBRARY} PkgConfig::BLOSC PkgConfig::IMATH TBB::tbb nlohmann_json::nlohmann_json)
 brisance_floor(simulation USES fluid particles rigid fracture frame LIBRARIES nlohmann_json::nlohmann_json)
 brisance_floor(render USES frame LIBRARIES embree PNG::PNG JPEG::JPEG PkgConfig::OPENEXR TBB::tbb nlohmann_json::nlohmann_json)
+brisance_floor(view USES frame render LIBRARIES nlohmann_json::nlohmann_json ZLIB::ZLIB Threads::Threads)
 brisance_floor(scene USES simulation render LIBRARIES PkgConfig::TOMLPP nlohmann_json::nlohmann_json)

@@ -18,7 +18,7 @@ function(brisance_tests folder)
   gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
 endfunction()
 
-foreach(folder base grid mesh particles rigid fracture frame simulation render scene)
+foreach(folder base grid mesh particles rigid fracture frame simulation render scene view)
   brisance_tests(${folder} USES ${folder} sample_meshes
     LIBRARIES nlohmann_json::nlohmann_json Eigen3::Eigen PkgConfig::OPENEXR)
 endforeach()

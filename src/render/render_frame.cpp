@@ -3,51 +3,20 @@
 #include <optional>
 
 #include "render/denoise.h"
+#include "render/drawn_volume.h"
 #include "render/exposure.h"
-#include "render/gas_volume.h"
 #include "render/path_tracer.h"
 #include "render/whitted.h"
 
 namespace brisance {
 namespace {
 
-enum ParticleKind : std::uint8_t { unburntFuel = 0, burningFuel = 1, soot = 2 };
-
-/// The mass that the picture counts: fuel that does not burn is not seen.
-float drawnMass(const FrameParticles& particles, std::size_t p, float fuelWeight) {
-  switch (particles.kind[p]) {
-    case burningFuel:
-      return particles.mass[p] * fuelWeight;
-    case soot:
-      return particles.mass[p];
-    default:
-      return 0;
-  }
-}
-
 /// The gas' own cells are not blurred: steps are as long as they.
-std::unique_ptr<GasMedium> gasOfCells(const FrameGas& gas, VolumeSettings settings, const BlackbodyColours& heat,
-                                      RenderScratch& scratch) {
-  if (!hasGas(gas)) return nullptr;
-  gasVolume(gas, settings, heat, scratch.volume);
-  settings.blur = 0;
-  return std::make_unique<GasMedium>(scratch.volume, settings, std::move(scratch.bricks));
-}
-
 std::unique_ptr<GasMedium> gasOf(const Frame& frame, const RenderSettings& settings, const BlackbodyColours& heat,
                                  RenderScratch& scratch) {
-  const VolumeSettings& volume = settings.volume;
-  const FrameParticles& particles = frame.particles;
-  const auto weigh = [&](std::size_t p) { return drawnMass(particles, p, static_cast<float>(volume.fuelWeight)); };
-  const auto seen = [&] {
-    for (std::size_t p = 0; p < particles.kind.size(); ++p)
-      if (weigh(p) > 0) return true;
-    return false;
-  };
-  if (volume.drawn && volume.source == VolumeSource::gas) return gasOfCells(frame.gas, volume, heat, scratch);
-  if (!volume.drawn || !seen()) return nullptr;
-  const ParticleVolumeSettings grid{volume.cells, volume.corner, volume.cellSize, volume.blur, volume.filterSize};
-  splatParticles(particles, grid, weigh, heat, scratch.volume, scratch.splat);
+  VolumeSettings volume = settings.volume;
+  if (!drawnVolume(frame, volume, heat, scratch.volume, scratch.splat)) return nullptr;
+  if (volume.source == VolumeSource::gas) volume.blur = 0;
   return std::make_unique<GasMedium>(scratch.volume, volume, std::move(scratch.bricks));
 }
 
