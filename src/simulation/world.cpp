@@ -158,11 +158,15 @@ bool World::advance(const StopRequested& stopRequested) {
 }
 
 Frame World::capture() const { return captureFrame(*state_, settings_); }
+
+Frame World::captureWithoutGas() const { return brisance::captureWithoutGas(*state_); }
+
+GasSource World::gas() const { return gasOf(*state_, settings_); }
 int World::frameIndex() const { return state_->frame; }
 const RunTotals& World::totals() const { return state_->totals; }
-std::string World::checkpoint() const {
+void World::checkpoint(std::ostream& out) const {
   CHECK(!state_->inFrame, "frame {}", state_->frame);
-  return writeCheckpoint(*state_);
+  writeCheckpoint(*state_, out);
 }
 void World::restore(const std::string& bytes, const std::string& fileName) {
   readCheckpoint(bytes, fileName, *state_);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "base/progress.h"
 #include "frame/frame.h"
+#include "frame/gas_file.h"
 #include "simulation/simulation_settings.h"
 
 namespace brisance {
@@ -28,6 +30,9 @@ class World {
   bool advance(const StopRequested& stopRequested = {});
   /// The moment now; frame 1 is the start.
   Frame capture() const;
+  /// The same in two parts, for those who write it: the gas is made while it is read, and no world may advance meanwhile.
+  Frame captureWithoutGas() const;
+  GasSource gas() const;
   int frameIndex() const;
   const RunTotals& totals() const;
   /// For those who read its arrays in place.
@@ -35,7 +40,7 @@ class World {
   const SimulationSettings& settings() const { return settings_; }
 
   /// Everything that `advance` depends on, as bytes; settings are not in it. Not in the middle of a frame.
-  std::string checkpoint() const;
+  void checkpoint(std::ostream& out) const;
   /// Throws DamagedFile when the bytes are no checkpoint of these settings.
   void restore(const std::string& bytes, const std::string& fileName);
 
