@@ -47,12 +47,13 @@ struct Subject {
   const StopRequested& stopRequested;
 };
 
-Exposed exposed(const Subject& subject, const Follow& follow) {
+Exposed exposed(const Subject& subject, const Follow& follow, Sampling sampling) {
   const auto followUnlessStopped = [&](std::span<CameraRay> rays, std::span<Vec3f> light) {
     if (subject.stopRequested && subject.stopRequested()) throw Interrupted();
     follow(rays, light);
   };
-  return expose(subject.rays, subject.settings.width, subject.settings.height, followUnlessStopped, subject.noise);
+  return expose(subject.rays, subject.settings.width, subject.settings.height, followUnlessStopped, subject.noise,
+                sampling);
 }
 
 Vec3f smokeAlbedo(const RenderSettings& settings) { return min(settings.volume.smokeColour, Vec3f(1, 1, 1)); }
@@ -63,7 +64,9 @@ Exposed drawn(const Subject& subject, const WhittedIntegrator&) {
   if (subject.gas) subject.gas->illuminate(settings.ambientLight, lights);
   const RayWorld world{subject.geometry,    subject.materials,     lights,           subject.gas,
                        subject.environment, settings.ambientLight, settings.maxDepth};
-  return exposed(subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { radiance(world, rays, light); });
+  return exposed(
+      subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { radiance(world, rays, light); },
+      Sampling::even);
 }
 
 /// Fire is no light of the list here: its gas itself is drawn from.
@@ -84,7 +87,9 @@ Exposed drawn(const Subject& subject, const PathIntegrator& integrator) {
                         static_cast<float>(settings.volume.anisotropy),
                         integrator,
                         settings.maxDepth};
-  return exposed(subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { pathRadiance(world, rays, light); });
+  return exposed(
+      subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { pathRadiance(world, rays, light); },
+      integrator.adaptive ? Sampling::byNoise : Sampling::even);
 }
 
 void drawLayers(const Subject& subject, PictureLayers& layers, PictureGuides& guides) {

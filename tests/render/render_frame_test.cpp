@@ -105,7 +105,7 @@ TEST(RenderFrame, BothIntegratorsAgreeOnAWallUnderAPointLight) {
   settings.samples = 4;
   settings.lights.resize(1);
   const Image whitted = renderFrame(frame, settings);
-  settings.integrator = PathIntegrator{1, 1, 0};
+  settings.integrator = PathIntegrator{1, 1, 0, false};
   const Image path = renderFrame(frame, settings);
   for (std::size_t p = 0; p < whitted.pixels.size(); ++p)
     EXPECT_NEAR(whitted.pixels[p].x, path.pixels[p].x, 1e-4f + 1e-4f * whitted.pixels[p].x);
