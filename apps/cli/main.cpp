@@ -15,10 +15,12 @@ int code(ExitCode exitCode) { return static_cast<int>(exitCode); }
 
 int call(const Options& options) {
   static const std::map<std::string, int (*)(const Options&)> commands{
-      {"run", runCommand},       {"simulate", simulateCommand},   {"render", renderCommand},
-      {"encode", encodeCommand}, {"check", checkCommand},         {"info", infoCommand},
-      {"verify", verifyCommand}, {"reference", referenceCommand}, {"fracture", fractureCommand},
-      {"export", exportCommand}};
+      {"run", runCommand},           {"simulate", simulateCommand},
+      {"render", renderCommand},     {"encode", encodeCommand},
+      {"check", checkCommand},       {"info", infoCommand},
+      {"verify", verifyCommand},     {"reference", referenceCommand},
+      {"fracture", fractureCommand}, {"export", exportCommand},
+      {"farm", farmCommand}};
   const ThreadLimit limit(options.threads);
   return commands.at(options.command)(options);
 }
