@@ -10,6 +10,7 @@ int simulateCommand(const Options& options);
 int renderCommand(const Options& options);
 int encodeCommand(const Options& options);
 
+int farmCommand(const Options& options);
 int exportCommand(const Options& options);
 int viewCommand(const Options& options);
 int fractureCommand(const Options& options);

@@ -20,7 +20,7 @@ int call(const Options& options) {
       {"check", checkCommand},       {"info", infoCommand},
       {"verify", verifyCommand},     {"reference", referenceCommand},
       {"fracture", fractureCommand}, {"export", exportCommand},
-      {"view", viewCommand}};
+      {"view", viewCommand},         {"farm", farmCommand}};
   const ThreadLimit limit(options.threads);
   return commands.at(options.command)(options);
 }

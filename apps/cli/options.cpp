@@ -160,6 +160,46 @@ void finishExport(const RawOptions& raw, Options& options) {
   options.profile = ExportProfile::blender;
 }
 
+void addEngineOptions(CLI::App* command, FarmOptions& farm) {
+  command->add_option("--engine", farm.engine, "slurm; or local: processes on this machine, one after the other")
+      ->required()
+      ->check(CLI::IsMember({"slurm", "local"}))
+      ->option_text("NAME");
+  const auto number = [&](const char* name, int& value, const char* what) {
+    command->add_option(name, value, what)->check(CLI::Range(1, 1000000))->option_text("N");
+  };
+  number("--chunk", farm.chunk, "pictures of a task at most; 10 where not given");
+  number("--cores", farm.cores, "for each task");
+  number("--at-once", farm.atOnce, "tasks at the same time at most");
+  number("--rounds", farm.rounds, "how often in all pictures that are missing are tried; 3 where not given");
+  command->add_option("--partition", farm.partition, "of slurm")->option_text("NAME");
+  command->add_option("--submit", farm.submitted, "of slurm: an option for sbatch, like --submit=--mem=8G; repeatable")
+      ->option_text("OPTION")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void addFarmCommand(CLI::App& app, RawOptions& raw) {
+  FarmOptions& farm = raw.options.farm;
+  CLI::App* command = addCommand(app, raw, "farm", "what a film still lacks, as jobs of many machines");
+  addPath(command, raw, "RUN", "the run directory, where all of them see it");
+  command->add_option("--scene", farm.scene, "the scene file, where the run is yet to be made")->option_text("SCENE");
+  addEngineOptions(command, farm);
+  command->add_flag("--dry-run", farm.dryRun, "print the jobs, and do nothing");
+  command->add_flag(
+      "--check", farm.check,
+      "what the farm calls itself after the pictures: fails where some are missing, and submits them again");
+  command->add_option("--round", farm.round, "of --check: which it is")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("N");
+  command->add_option("--size", raw.size, "of the pictures, instead of the scene's")->option_text("WxH");
+  command->add_option("--samples", raw.samples, "N x N rays for a pixel, instead of the scene's")
+      ->check(CLI::PositiveNumber)
+      ->option_text("N");
+  addWorkOptions(command, raw);
+  addRunOptions(command, raw);
+}
+
 void addLookingCommands(CLI::App& app, RawOptions& raw) {
   CLI::App* view = addCommand(app, raw, "view", "a player of a run in the browser, for this machine alone");
   addPath(view, raw, "RUN", "the run directory; it may still be going on");
@@ -239,6 +279,7 @@ CommandLine parseCommandLine(int count, const char* const* arguments) {
   addPictureCommands(app, raw);
   addFractureCommand(app, raw);
   addExportCommand(app, raw);
+  addFarmCommand(app, raw);
   addLookingCommands(app, raw);
   refuseUnknownCommand(app, count, arguments);
   try {
