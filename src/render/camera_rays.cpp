@@ -24,26 +24,42 @@ CameraRays::CameraRays(const RenderSettings& settings, const PictureTime& time, 
       weights_(subPixelWeights(settings.samples)),
       cameras_(camerasOf(settings, time)),
       jitter_(settings.seed, Stream::pixelJitter),
+      allotment_(jitter_.bits(frame), Stream::pixelJitter),
       firstPixel_(static_cast<std::uint64_t>(frame) * settings.width * settings.height),
       width_(settings.width) {}
 
 CameraRay CameraRays::ray(int x, int y, int s) const {
-  const std::uint64_t pixelNumber = firstPixel_ + static_cast<std::uint64_t>(y) * width_ + x;
+  const std::uint64_t pixel = numberOf(x, y);
   constexpr int drawsPerSample = 4;
-  const std::uint64_t draw = drawsPerSample * (pixelNumber * samples_ * samples_ + s);
+  const std::uint64_t draw = drawsPerSample * (pixel * samples_ * samples_ + s);
   // A random number over the sub-pixel is its centre plus a centred offset.
   const double across = x + (s % samples_ + jitter_.uniform(draw)) / samples_;
   const double down = y + (s / samples_ + jitter_.uniform(draw + 1)) / samples_;
-  // Each sample takes another time of the open shutter, in an order that differs from pixel to pixel.
-  const std::size_t when = (jitter_.below(cameras_.size(), pixelNumber) + s) % cameras_.size();
-  const float time = (static_cast<float>(when) + 0.5f) / static_cast<float>(cameras_.size());
   // The ways of a pixel through the gas share out a step evenly, from a random start.
-  const double phase =
-      (s + jitter_.uniform(drawsPerSample * pixelNumber * samples_ * samples_ + 2)) / (samples_ * samples_);
-  constexpr std::uint64_t pathDraws = std::uint64_t{1} << 62;  // beyond all draws above
-  SampleSequence numbers(jitter_.bits(pathDraws + pixelNumber), static_cast<std::uint32_t>(s));
-  const CameraWay way = cameras_[when].way(across, down, numbers.pair());
-  return {{Vec3f(way.origin), Vec3f(way.direction), 0, time}, static_cast<float>(phase), numbers};
+  const double phase = (s + jitter_.uniform(drawsPerSample * pixel * samples_ * samples_ + 2)) / (samples_ * samples_);
+  return through({across, down}, pixel, s, static_cast<float>(phase), numbersOf(pixel, s));
+}
+
+CameraRay CameraRays::freeRay(int x, int y, int s) const {
+  const std::uint64_t pixel = numberOf(x, y);
+  SampleSequence numbers = numbersOf(pixel, s);
+  const Vec2<float> place = numbers.pair();
+  return through({x + static_cast<double>(place.x), y + static_cast<double>(place.y)}, pixel, s, numbers.number(),
+                 numbers);
+}
+
+SampleSequence CameraRays::numbersOf(std::uint64_t pixel, int s) const {
+  constexpr std::uint64_t pathDraws = std::uint64_t{1} << 62;  // beyond all draws of ray()
+  return {jitter_.bits(pathDraws + pixel), static_cast<std::uint32_t>(s)};
+}
+
+/// Each sample takes another time of the open shutter, in an order that differs from pixel to pixel.
+CameraRay CameraRays::through(const Vec2<double>& place, std::uint64_t pixel, int s, float phase,
+                              SampleSequence numbers) const {
+  const std::size_t when = (jitter_.below(cameras_.size(), pixel) + s) % cameras_.size();
+  const float time = (static_cast<float>(when) + 0.5f) / static_cast<float>(cameras_.size());
+  const CameraWay way = cameras_[when].way(place.x, place.y, numbers.pair());
+  return {{Vec3f(way.origin), Vec3f(way.direction), 0, time}, phase, numbers};
 }
 
 }  // namespace brisance

@@ -35,12 +35,20 @@ class CameraRays {
   int field(int s) const { return (s / samples_ + s % samples_) % 2; }
   /// Sample s of pixel (x, y).
   CameraRay ray(int x, int y, int s) const;
+  /// The same where pixels may have as many samples as they like, each counting as much as another: any number of first
+  /// ones lies evenly over the pixel.
+  CameraRay freeRay(int x, int y, int s) const;
+  const Random& allotment() const { return allotment_; }  ///< chance by which those samples are shared out
 
  private:
+  std::uint64_t numberOf(int x, int y) const { return firstPixel_ + static_cast<std::uint64_t>(y) * width_ + x; }
+  SampleSequence numbersOf(std::uint64_t pixel, int s) const;
+  CameraRay through(const Vec2<double>& place, std::uint64_t pixel, int s, float phase, SampleSequence numbers) const;
+
   int samples_;
   std::vector<float> weights_;
   std::vector<Camera> cameras_;  ///< at as many times of the open shutter
-  Random jitter_;
+  Random jitter_, allotment_;
   std::uint64_t firstPixel_;
   int width_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "render/sample_allotment.h"
 
 namespace brisance {
 namespace {
@@ -44,7 +45,11 @@ class PixelSums {
 
 /// Some pixels, and a packet of rays of theirs.
 struct PixelBlock {
+  struct Sample {
+    int pixel, number;
+  };
   std::vector<std::array<int, 2>> pixels;
+  std::vector<Sample> samples;
   std::vector<CameraRay> rays;
   std::array<Vec3f, SceneGeometry::packet> light;
   std::array<PixelSums, SceneGeometry::packet> sums;
@@ -60,35 +65,9 @@ struct PixelBlock {
   }
 };
 
-void keep(const PixelBlock& block, int samples, Noise noise, Exposed& exposed) {
-  for (std::size_t n = 0; n < block.pixels.size(); ++n) {
-    const auto [x, y] = block.pixels[n];
-    const PixelSums& sums = block.sums[n];
-    exposed.mean(x, y) = sums.mean();
-    if (noise == Noise::ignored) continue;
-    exposed.variance(x, y) = sums.variance(samples);
-    for (int half = 0; half < 2; ++half) exposed.halves[half](x, y) = sums.half(half);
-  }
-}
-
-/// One sample of each pixel after the other.
-void draw(PixelBlock& block, const CameraRays& rays, const Follow& follow, Noise noise, Exposed& exposed) {
-  block.sums.fill({});
-  for (int s = 0; s < rays.perPixel(); ++s) {
-    block.rays.clear();
-    for (const auto& [x, y] : block.pixels) block.rays.push_back(rays.ray(x, y, s));
-    follow(block.rays, std::span(block.light).first(block.rays.size()));
-    for (std::size_t n = 0; n < block.pixels.size(); ++n)
-      block.sums[n].add(block.light[n], rays.weight(s), rays.field(s));
-  }
-  keep(block, rays.perPixel(), noise, exposed);
-}
-
-}  // namespace
-
-Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise) {
-  Exposed exposed{Image(width, height), {}, {}};
-  if (noise == Noise::measured) exposed.variance = exposed.halves[0] = exposed.halves[1] = Image(width, height);
+/// Calls visit(block) for all pixels of a picture, block by block, on all threads.
+template <class Visit>
+void forBlocks(int width, int height, const Visit& visit) {
   const int columns = (width + tileSize - 1) / tileSize, rows = (height + tileSize - 1) / tileSize;
   parallelFor(0, static_cast<std::int64_t>(columns) * rows, 1, [&](std::int64_t first, std::int64_t last) {
     PixelBlock block;
@@ -98,11 +77,136 @@ Exposed expose(const CameraRays& rays, int width, int height, const Follow& foll
       for (int y = top; y < bottom; y += blockSize)
         for (int x = left; x < right; x += blockSize) {
           block.cover(x, y, std::min(x + blockSize, right), std::min(y + blockSize, bottom));
-          draw(block, rays, follow, noise, exposed);
+          visit(block);
         }
     }
   });
-  return exposed;
+}
+
+class Exposure {
+ public:
+  Exposure(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise)
+      : rays_(rays), follow_(follow), noise_(noise), exposed_{Image(width, height), {}, {}} {
+    if (noise == Noise::measured) exposed_.variance = exposed_.halves[0] = exposed_.halves[1] = Image(width, height);
+  }
+  int width() const { return exposed_.mean.width; }
+  int height() const { return exposed_.mean.height; }
+
+  /// One sample of each pixel after the other.
+  Exposed even() {
+    forBlocks(width(), height(), [&](PixelBlock& block) {
+      block.samples.clear();
+      for (int s = 0; s < rays_.perPixel(); ++s)
+        for (int n = 0; n < std::ssize(block.pixels); ++n) block.samples.push_back({n, s});
+      draw(
+          block, [&](int x, int y, int s) { return rays_.ray(x, y, s); },
+          [&](int, int s) {
+            return Weight{rays_.weight(s), rays_.field(s)};
+          });
+      for (std::size_t n = 0; n < block.pixels.size(); ++n) keep(block.pixels[n], block.sums[n], rays_.perPixel());
+    });
+    return std::move(exposed_);
+  }
+
+  /// `drawn` samples for each pixel, then more where they differ more.
+  Exposed byNoise(int drawn) {
+    if (noise_ == Noise::ignored) exposed_.variance = Image(width(), height());
+    forBlocks(width(), height(), [&](PixelBlock& block) {
+      drawFree(block, [&](int, int) { return Samples{0, drawn}; });
+      for (std::size_t n = 0; n < block.pixels.size(); ++n) keep(block.pixels[n], block.sums[n], drawn);
+    });
+    const std::vector<int> more =
+        allotSamples(exposed_.mean, exposed_.variance, drawn, rays_.perPixel(), rays_.allotment());
+    const auto moreOf = [&](int x, int y) { return more[static_cast<std::size_t>(y) * width() + x]; };
+    forBlocks(width(), height(), [&](PixelBlock& block) {
+      drawFree(block, [&](int x, int y) { return Samples{drawn, moreOf(x, y)}; });
+      for (std::size_t n = 0; n < block.pixels.size(); ++n)
+        join(block.pixels[n], drawn, block.sums[n], moreOf(block.pixels[n][0], block.pixels[n][1]));
+    });
+    if (noise_ == Noise::ignored) exposed_.variance = {};
+    return std::move(exposed_);
+  }
+
+ private:
+  struct Weight {
+    float share;
+    int half;
+  };
+  struct Samples {
+    int first, count;
+  };
+
+  /// Samples that count alike: those of each pixel are one another's neighbours in a packet.
+  template <class SamplesOf>
+  void drawFree(PixelBlock& block, const SamplesOf& samplesOf) const {
+    std::array<float, SceneGeometry::packet> shares{};
+    block.samples.clear();
+    for (int n = 0; n < std::ssize(block.pixels); ++n) {
+      const Samples samples = samplesOf(block.pixels[n][0], block.pixels[n][1]);
+      for (int s = 0; s < samples.count; ++s) block.samples.push_back({n, samples.first + s});
+      shares[n] = samples.count > 0 ? 1 / static_cast<float>(samples.count) : 0;
+    }
+    draw(
+        block, [&](int x, int y, int s) { return rays_.freeRay(x, y, s); },
+        [&](int n, int s) {
+          return Weight{shares[n], s % 2};
+        });
+  }
+
+  /// Sums up the block's samples, a packet at a time.
+  template <class RayOf, class WeightOf>
+  void draw(PixelBlock& block, const RayOf& rayOf, const WeightOf& weightOf) const {
+    block.sums.fill({});
+    const std::span<const PixelBlock::Sample> all(block.samples);
+    for (std::size_t first = 0; first < all.size(); first += SceneGeometry::packet) {
+      const auto some = all.subspan(first, std::min<std::size_t>(SceneGeometry::packet, all.size() - first));
+      block.rays.clear();
+      for (const auto& [n, s] : some) block.rays.push_back(rayOf(block.pixels[n][0], block.pixels[n][1], s));
+      follow_(block.rays, std::span(block.light).first(some.size()));
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        const Weight weight = weightOf(some[i].pixel, some[i].number);
+        block.sums[some[i].pixel].add(block.light[i], weight.share, weight.half);
+      }
+    }
+  }
+  void keep(const std::array<int, 2>& pixel, const PixelSums& sums, int samples) {
+    const auto [x, y] = pixel;
+    exposed_.mean(x, y) = sums.mean();
+    if (exposed_.variance.width > 0) exposed_.variance(x, y) = sums.variance(samples);
+    if (noise_ == Noise::ignored) return;
+    for (int half = 0; half < 2; ++half) exposed_.halves[half](x, y) = sums.half(half);
+  }
+  /// Joins `more` samples to the `drawn` ones that were kept (Chan, Golub & LeVeque 1979). `drawn` is even.
+  void join(const std::array<int, 2>& pixel, int drawn, const PixelSums& sums, int more) {
+    if (more == 0) return;
+    const auto [x, y] = pixel;
+    const auto a = static_cast<float>(drawn), b = static_cast<float>(more), all = a + b;
+    const Vec3f off = sums.mean() - exposed_.mean(x, y);
+    const Vec3f spread =
+        exposed_.variance(x, y) * (a * (a - 1)) + sums.variance(more) * (b * (b - 1)) + off * off * (a * b / all);
+    exposed_.variance(x, y) = spread / (all * (all - 1));
+    exposed_.mean(x, y) += off * (b / all);
+    if (noise_ == Noise::ignored) return;
+    for (int half = 0; half < 2; ++half) {
+      const int further = (more + 1 - half) / 2;
+      if (further == 0) continue;
+      Vec3f& kept = exposed_.halves[half](x, y);
+      kept += (sums.half(half) - kept) * (static_cast<float>(further) / static_cast<float>(drawn / 2 + further));
+    }
+  }
+
+  const CameraRays& rays_;
+  const Follow& follow_;
+  Noise noise_;
+  Exposed exposed_;
+};
+
+}  // namespace
+
+Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise, Sampling sampling) {
+  Exposure exposure(rays, width, height, follow, noise);
+  const int drawn = rays.perPixel() / 4 / 2 * 2;  // even, so that both halves have as many
+  return sampling == Sampling::byNoise && drawn >= 2 ? exposure.byNoise(drawn) : exposure.even();
 }
 
 }  // namespace brisance

@@ -21,8 +21,12 @@ struct Exposed {
 };
 
 enum class Noise { ignored, measured };
+/// Whether each pixel has the same samples, weighed as appendix A.1.3 says; or, after some for each, more where light
+/// varies more, all counting alike.
+enum class Sampling { even, byNoise };
 /// Of the picture alone when the noise is `ignored`; that picture is the same in both cases. The same bits for any
 /// number of threads.
-Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise);
+Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise,
+               Sampling sampling = Sampling::even);
 
 }  // namespace brisance

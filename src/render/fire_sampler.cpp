@@ -63,7 +63,8 @@ FireSample FireSampler::sample(const Vec2<float>& choice, const Vec2<float>& acr
   const auto cell = static_cast<int>(entryOf(block.upTo, choice.y));
   const Vec3f place = Vec3f(cornerOf(block, cell)) + Vec3f(across.x, across.y, along);
   return {gas_.placeOf(place), gas_.emissionAtCell(place),
-          density(static_cast<std::int32_t>(numbers_.index(block.block.x, block.block.y, block.block.z)), place)};
+          density(static_cast<std::int32_t>(numbers_.index(block.block.x, block.block.y, block.block.z)), place),
+          gas_.extinctionAtCell(place)};
 }
 
 float FireSampler::density(std::int32_t block, const Vec3f& place) const {

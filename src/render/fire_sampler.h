@@ -9,9 +9,10 @@
 namespace brisance {
 
 struct FireSample {
-  Vec3f place;     ///< [m]
-  Vec3f emission;  ///< [radiance/m]
-  float density;   ///< [1/m3]
+  Vec3f place;       ///< [m]
+  Vec3f emission;    ///< [radiance/m]
+  float density;     ///< [1/m3]
+  float extinction;  ///< [1/m]
 };
 
 /// Draws blocks of the gas by the luminance that leaves the gas from there, within a block a cell by what it gives

@@ -86,6 +86,7 @@ class GasMedium {
   std::optional<float> collision(const GasPath& path, NumberRun& numbers) const;
   /// The light that a place [cells from sample (0, 0, 0)] gives off per metre. [radiance/m]
   Vec3f emissionAtCell(const Vec3f& place) const;
+  float extinctionAtCell(const Vec3f& place) const { return optics_.extinction(sampleAt(place).density()); }  ///< [1/m]
   /// That place in metres.
   Vec3f placeOf(const Vec3f& place) const { return origin_ + place * cellSize_; }
   /// Whether there are samples at all corners of the cell that begins at sample `lower`.

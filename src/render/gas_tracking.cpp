@@ -18,8 +18,9 @@ GasPassage GasMedium::marchShared(const GasPath& path, float density, const Fire
       for (int n = 0; n < steps.count; ++n) {
         const float distance = steps.middle(n);
         const std::int32_t block = memory_.bricks[steps.brick[n]].block;
-        const float drawn = fire.density(block, start + slope * distance) * distance * distance;  // [1/sr] there
-        const float share = density / (density + drawn);
+        const float drawn = fire.density(block, start + slope * distance) * distance * distance;
+        const float found = density * steps.depth[n], elsewise = drawn * steps.length(n);  // [1/sr] in this step
+        const float share = found > 0 ? found / (found + elsewise) : 0;
         light += steps.sample[n].values * ((1 - steps.passing[n]) * steps.perDensity[n] * transmittance * share);
         transmittance *= steps.passing[n];
         if (transmittance < seeThrough) transmittance = 0;

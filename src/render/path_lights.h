@@ -73,8 +73,9 @@ class ArrivingLights {
            (drawn->density + returned.density);
   }
 
-  /// The emission of a place, seen at a distance, is divided by its square: with the density per volume that square is
-  /// the density per solid angle and metre.
+  /// The density per volume times the squared distance is that per solid angle and metre. A path that goes on comes
+  /// upon light of a metre as often as on its direction and on gas that stops it there: so no place, be it ever so
+  /// near, counts more than opaque fire all around.
   Vec3f fromFire(SampleSequence& numbers) const {
     const Vec2<float> choice = numbers.pair(), across = numbers.pair();
     const FireSample drawn = world_.fire->sample(choice, across, numbers.number());
@@ -84,7 +85,7 @@ class ArrivingLights {
     const Returned returned = scatter_(way / distance);
     if (returned.value == Vec3f{}) return {};
     return returned.value * drawn.emission * passing(way / distance, distance, GlassShade::blocks) /
-           (drawn.density * distance2 + returned.density);
+           (drawn.density * distance2 + returned.density * drawn.extinction);
   }
 
   const PathWorld& world_;

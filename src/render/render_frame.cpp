@@ -5,7 +5,9 @@
 #include "render/denoise.h"
 #include "render/drawn_volume.h"
 #include "render/exposure.h"
+#include "render/flow_arrows.h"
 #include "render/path_tracer.h"
+#include "render/piece_paint.h"
 #include "render/whitted.h"
 
 namespace brisance {
@@ -42,10 +44,16 @@ struct Subject {
   double openTime;  ///< [s] simulated
   const CameraRays& rays;
   Noise noise;
+  const StopRequested& stopRequested;
 };
 
-Exposed exposed(const Subject& subject, const Follow& follow) {
-  return expose(subject.rays, subject.settings.width, subject.settings.height, follow, subject.noise);
+Exposed exposed(const Subject& subject, const Follow& follow, Sampling sampling) {
+  const auto followUnlessStopped = [&](std::span<CameraRay> rays, std::span<Vec3f> light) {
+    if (subject.stopRequested && subject.stopRequested()) throw Interrupted();
+    follow(rays, light);
+  };
+  return expose(subject.rays, subject.settings.width, subject.settings.height, followUnlessStopped, subject.noise,
+                sampling);
 }
 
 Vec3f smokeAlbedo(const RenderSettings& settings) { return min(settings.volume.smokeColour, Vec3f(1, 1, 1)); }
@@ -56,7 +64,9 @@ Exposed drawn(const Subject& subject, const WhittedIntegrator&) {
   if (subject.gas) subject.gas->illuminate(settings.ambientLight, lights);
   const RayWorld world{subject.geometry,    subject.materials,     lights,           subject.gas,
                        subject.environment, settings.ambientLight, settings.maxDepth};
-  return exposed(subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { radiance(world, rays, light); });
+  return exposed(
+      subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { radiance(world, rays, light); },
+      Sampling::even);
 }
 
 /// Fire is no light of the list here: its gas itself is drawn from.
@@ -77,7 +87,9 @@ Exposed drawn(const Subject& subject, const PathIntegrator& integrator) {
                         static_cast<float>(settings.volume.anisotropy),
                         integrator,
                         settings.maxDepth};
-  return exposed(subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { pathRadiance(world, rays, light); });
+  return exposed(
+      subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { pathRadiance(world, rays, light); },
+      integrator.adaptive ? Sampling::byNoise : Sampling::even);
 }
 
 void drawLayers(const Subject& subject, PictureLayers& layers, PictureGuides& guides) {
@@ -98,7 +110,7 @@ void drawLayers(const Subject& subject, PictureLayers& layers, PictureGuides& gu
 }  // namespace
 
 DrawnPicture drawPicture(const Frame& frame, const RenderSettings& settings, const RenderAssets& assets,
-                         const PictureTime& time, RenderScratch& scratch) {
+                         const PictureTime& time, RenderScratch& scratch, const StopRequested& stopRequested) {
   const MaterialTable materials(settings, assets.textures);
   const double openTime = settings.camera.shutter * time.frameDuration * time.simulatedPerFilm;
   const SceneGeometry geometry(frame.bodies, materials, openTime);
@@ -106,8 +118,9 @@ DrawnPicture drawPicture(const Frame& frame, const RenderSettings& settings, con
   const CameraRays rays(settings, time, frame.index);
   const bool wantsLayers = settings.writeExr && settings.layers, measures = wantsLayers || settings.denoise;
   const Subject subject{
-      frame,     settings, assets.environment, materials, geometry,
-      gas.get(), time,     openTime,           rays,      measures ? Noise::measured : Noise::ignored};
+      frame,        settings, assets.environment, materials, geometry,
+      gas.get(),    time,     openTime,           rays,      measures ? Noise::measured : Noise::ignored,
+      stopRequested};
   Exposed exposed = std::visit([&](const auto& integrator) { return drawn(subject, integrator); }, settings.integrator);
   DrawnPicture picture;
   if (measures) {
@@ -120,6 +133,14 @@ DrawnPicture drawPicture(const Frame& frame, const RenderSettings& settings, con
   picture.variance = std::move(exposed.variance);
   if (gas) scratch.bricks = GasMedium::memoryOf(std::move(*gas));
   return picture;
+}
+
+DrawnPicture drawFilmFrame(Frame frame, const RenderSettings& settings, const RenderAssets& assets,
+                           const PictureTime& time, RenderScratch& scratch, const StopRequested& stopRequested) {
+  RenderSettings look = settings;
+  if (settings.flow.drawn) addFlow(frame.gas, settings.flow, frame.bodies, look.materials);
+  paintPieces(frame.bodies, look.materials, assets.heat);
+  return drawPicture(frame, look, assets, time, scratch, stopRequested);
 }
 
 Image renderFrame(const Frame& frame, const RenderSettings& settings) {

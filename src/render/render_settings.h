@@ -144,6 +144,7 @@ struct PathIntegrator {
   int maxBounces = 12;   ///< off surfaces and smoke
   int rouletteFrom = 4;  ///< bounces after which faint paths end at random
   int splits = 2;        ///< glass surfaces and mirrors from the camera on at which both ways are followed
+  bool adaptive = true;  ///< more samples for pixels whose light varies more
 };
 using Integrator = std::variant<WhittedIntegrator, PathIntegrator>;
 

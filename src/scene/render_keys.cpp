@@ -125,6 +125,9 @@ struct IntegratorKeys {
         v,
         {"splits", "", between(0, 8), "mirrors and glass surfaces from the camera on at which both ways are followed"},
         path.splits);
+    visit(v,
+          {"adaptive", "", anyValue, "more samples where light is noisier, in the mean as many; from samples = 3 on"},
+          path.adaptive);
   }
 };
 

@@ -11,6 +11,7 @@ namespace {
 
 struct Estimate {
   double mean, deviation;  ///< of the mean
+  double largest;          ///< of all
 };
 
 /// All that a test's path meets, with the parts it does not care about empty.
@@ -36,16 +37,17 @@ struct Room {
     const PathWorld paths{world.geometry(), world.materials(), lights,   shining, environment, gas, fire,
                           albedo,           anisotropy,        settings, 60};
     const Random random(7, Stream::test);
-    double sum = 0, squares = 0;
+    double sum = 0, squares = 0, largest = 0;
     for (int i = 0; i < count; ++i) {
       SampleSequence numbers(random.bits(i), 0);  // samples of as many pixels: independent
       const Ray ray = rayOf(numbers);
       const double light = pathRadiance(paths, ray, static_cast<float>(random.uniform(i)), numbers).x;
       sum += light;
       squares += light * light;
+      largest = std::max(largest, light);
     }
     const double average = sum / count;
-    return {average, std::sqrt(std::max(0.0, squares / count - average * average) / count)};
+    return {average, std::sqrt(std::max(0.0, squares / count - average * average) / count), largest};
   }
   Estimate along(const Vec3f& origin, const Vec3f& direction, int count) const {
     return mean(count, [&](SampleSequence&) { return Ray{origin, normalized(direction)}; });
@@ -272,6 +274,21 @@ TEST(FireInADarkRoom, LightsEachWallWithinTwoPercentOfBruteForce) {
       EXPECT_LT(blind.deviation, 0.006 * blind.mean);
       EXPECT_NEAR(drawn.mean, blind.mean, 0.02 * blind.mean) << "wall " << axis << " at " << side;
     }
+}
+
+// A wall 1 cm from thick fire: no draw, be it as near as it may, counts more than fire all around. One draw from the
+// fire and one way on make at most twice that.
+TEST(FireInADarkRoom, NoPlaceOfItCountsMoreThanFireAllAround) {
+  constexpr float glow = 4, grey = 0.6f;
+  const GasMedium gas = gasCube(60, {glow, glow, glow});
+  const FireSampler fire(gas);
+  Room room({bodyOf("wall", boxMesh({0.1, 8, 8}), "grey", {{1.06, 0, 0}, {}})}, fewMaterials(), black);
+  room.gas = &gas;
+  room.fire = &fire;
+  room.settings.maxBounces = 1;
+  const Estimate light = room.along({1.005f, 0.03f, 0.02f}, {1, 0, 0}, 100000);
+  EXPECT_NEAR(light.mean, grey * glow, 0.01 * grey * glow + 4.5 * light.deviation);
+  EXPECT_LT(light.largest, 2 * grey * glow * 1.001f);
 }
 
 TEST(PathLights, SurfacesAreFoundAlikeByDrawingThemAndByChance) {

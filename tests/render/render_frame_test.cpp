@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "base/check.h"
 #include "base/durable_file.h"
 #include "base/parallel.h"
@@ -70,6 +72,19 @@ TEST(RenderFrame, OneThreadAndFourMakeTheSamePixels) {
   EXPECT_EQ(contentHash(one), contentHash(drawn(4)));
 }
 
+TEST(RenderFrame, EndsEarlyWhenAskedTo) {
+  const auto [frame, settings] = smallExplosion();
+  for (const Integrator& integrator : {Integrator(WhittedIntegrator{}), Integrator(PathIntegrator{})}) {
+    RenderSettings look = settings;
+    look.integrator = integrator;
+    std::atomic<int> asked = 0;
+    RenderScratch scratch;
+    const StopRequested atTheTenth = [&] { return ++asked >= 10; };
+    EXPECT_THROW(drawFilmFrame(frame, look, RenderAssets(look), {}, scratch, atTheTenth), Interrupted);
+    EXPECT_LT(asked, look.width * look.height / 2);
+  }
+}
+
 TEST(RenderFrame, PathsAreTheSameForOneThreadAndFour) {
   auto [frame, settings] = smallExplosion();
   settings.integrator = PathIntegrator{};
@@ -90,7 +105,7 @@ TEST(RenderFrame, BothIntegratorsAgreeOnAWallUnderAPointLight) {
   settings.samples = 4;
   settings.lights.resize(1);
   const Image whitted = renderFrame(frame, settings);
-  settings.integrator = PathIntegrator{1, 1, 0};
+  settings.integrator = PathIntegrator{1, 1, 0, false};
   const Image path = renderFrame(frame, settings);
   for (std::size_t p = 0; p < whitted.pixels.size(); ++p)
     EXPECT_NEAR(whitted.pixels[p].x, path.pixels[p].x, 1e-4f + 1e-4f * whitted.pixels[p].x);
