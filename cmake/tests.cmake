@@ -38,7 +38,7 @@ if(NODE_PROGRAM AND NPM_PROGRAM)
   foreach(name chromium exchange)
     add_test(NAME Player.${name} COMMAND ${NODE_PROGRAM} ${CMAKE_SOURCE_DIR}/tests/world/player/${name}_test.mjs
       ${CMAKE_BINARY_DIR}/bin/brisance ${PLAYER_FOLDER})
-    set_tests_properties(Player.${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+    set_tests_properties(Player.${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
   endforeach()
 else()
   message(STATUS "Tests of the player are left out: Node.js or npm is missing (packaging/build.txt)")
