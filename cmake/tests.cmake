@@ -33,6 +33,17 @@ foreach(folder laws faults world)
   endif()
 endforeach()
 
+# The player in a browser, and exports in the hands of others (npm's packages lie where the player was bundled).
+if(NODE_PROGRAM AND NPM_PROGRAM)
+  foreach(name chromium exchange)
+    add_test(NAME Player.${name} COMMAND ${NODE_PROGRAM} ${CMAKE_SOURCE_DIR}/tests/world/player/${name}_test.mjs
+      ${CMAKE_BINARY_DIR}/bin/brisance ${PLAYER_FOLDER})
+    set_tests_properties(Player.${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
+  endforeach()
+else()
+  message(STATUS "Tests of the player are left out: Node.js or npm is missing (packaging/build.txt)")
+endif()
+
 # Tests in Python's unittest: every class of a file that has one of the bases, and is none, becomes the test PREFIX.CLASS.
 find_package(Python COMPONENTS Interpreter)
 function(brisance_unittest prefix file bases)

@@ -21,6 +21,7 @@ export class Player {
     this.onFrame = () => {};
     this.longest = 0;        // [ms] between two pictures while playing
     moments.listeners.shown = (frame, message) => this.takeGas(frame, message);
+    stage.onGas = () => { this.isDirty = true; };
     stage.controls.addEventListener('change', () => { this.isDirty = true; });
     stage.controls.addEventListener('start', () => this.freeCamera());
     requestAnimationFrame(time => this.tick(time));
@@ -150,11 +151,8 @@ export class Player {
     this.onFrame();
     this.onFirst?.();
     this.onFirst = null;
-    if (this.drawn.gas < 0 || !this.stage.canDrawGas) {
-      this.isDirty = true;  // until gas is there as well
-    } else {
-      this.onWhole?.();
-      this.onWhole = null;
-    }
+    if (this.drawn.gas < 0 || !this.stage.canDrawGas) return;
+    this.onWhole?.();
+    this.onWhole = null;
   }
 }

@@ -76,8 +76,12 @@ export class Stage {
     // The card begins with these while the pieces are still on their way.
     for (const mesh of [this.sky, this.develop]) this.renderer.compile(mesh, this.flat);
     this.canDrawGas = false;
-    Promise.all([this.gasPass, this.blur].map(mesh => this.renderer.compileAsync(mesh, this.flat)))
-      .then(() => { this.canDrawGas = true; });
+    const canWait = this.renderer.extensions.has('KHR_parallel_shader_compile');
+    const compiled = mesh => this.renderer[canWait ? 'compileAsync' : 'compile'](mesh, this.flat);
+    Promise.all([this.gasPass, this.blur].map(compiled)).then(() => {
+      this.canDrawGas = true;
+      this.onGas?.();
+    });
   }
 
   makeLayers() {
