@@ -11,6 +11,7 @@ int renderCommand(const Options& options);
 int encodeCommand(const Options& options);
 
 int exportCommand(const Options& options);
+int viewCommand(const Options& options);
 int fractureCommand(const Options& options);
 int checkCommand(const Options& options);
 int infoCommand(const Options& options);

@@ -134,8 +134,11 @@ void addFractureCommand(CLI::App& app, RawOptions& raw) {
   raw.fractureCommand = fracture;
 }
 
-constexpr std::pair<const char*, ExportFormat> exportFormats[] = {
-    {"gltf", ExportFormat::gltf}, {"usd", ExportFormat::usd}, {"vdb", ExportFormat::vdb}, {"obj", ExportFormat::obj}};
+constexpr std::pair<const char*, ExportFormat> exportFormats[] = {{"gltf", ExportFormat::gltf},
+                                                                  {"usd", ExportFormat::usd},
+                                                                  {"vdb", ExportFormat::vdb},
+                                                                  {"obj", ExportFormat::obj},
+                                                                  {"html", ExportFormat::html}};
 
 void addExportCommand(CLI::App& app, RawOptions& raw) {
   CLI::App* command = addCommand(app, raw, "export", "a run for other tools: moving bodies, gas");
@@ -143,9 +146,9 @@ void addExportCommand(CLI::App& app, RawOptions& raw) {
   command
       ->add_option("--to", raw.format,
                    "gltf: bodies, moving, one .glb; usd: bodies and gas, one .usda; vdb: a folder of gas files; "
-                   "obj: a folder with the bodies of each frame")
+                   "obj: a folder with the bodies of each frame; html: a player in one file")
       ->required()
-      ->check(CLI::IsMember({"gltf", "usd", "vdb", "obj"}))
+      ->check(CLI::IsMember({"gltf", "usd", "vdb", "obj", "html"}))
       ->option_text("NAME");
   command->add_option("-o,--output", raw.options.output, "the file or folder to make")->required()->option_text("PATH");
   addFrames(command, raw, "A-B[:S]", "only these frames, from 1; all that are there where not given");
@@ -166,6 +169,13 @@ void finishExport(const RawOptions& raw, Options& options) {
 }
 
 void addLookingCommands(CLI::App& app, RawOptions& raw) {
+  CLI::App* view = addCommand(app, raw, "view", "a player of a run in the browser, for this machine alone");
+  addPath(view, raw, "RUN", "the run directory; it may still be going on");
+  view->add_option("--port", raw.options.port, "on which it listens; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->option_text("P");
+  addThreads(view, raw);
+
   CLI::App* info = addCommand(app, raw, "info", "what a run, a scene or a mesh holds");
   addPath(info, raw, "PATH", "a run directory, a scene file or a mesh");
   CLI::App* verify = addCommand(app, raw, "verify", "every file of a run against the hashes of its manifest");

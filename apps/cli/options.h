@@ -27,7 +27,7 @@ struct PictureSize {
 /// "WxH". Throws InputError naming --size.
 PictureSize parsePictureSize(const std::string& text);
 
-enum class ExportFormat { gltf, usd, vdb, obj };
+enum class ExportFormat { gltf, usd, vdb, obj, html };
 /// Whose habits the files follow.
 enum class ExportProfile { ours, blender };
 
@@ -49,6 +49,7 @@ struct Options {
   FractureOptions fracture;
   ExportFormat format = ExportFormat::gltf;  ///< of `export`
   ExportProfile profile = ExportProfile::ours;
+  int port = 0;  ///< of `view`; 0: any that is free
   bool skipExisting = false;
   bool json = false;
   bool quiet = false;

@@ -20,7 +20,6 @@ namespace brisance {
 
 namespace {
 
-constexpr int brickSide = 8;  // of our bricks and of OpenVDB's leaves alike
 constexpr char sizeKey[] = "brisance_size";
 
 openvdb::Vec3s toVdb(const Vec3f& v) { return {v.x, v.y, v.z}; }
@@ -37,41 +36,40 @@ constexpr int leafOffset(int n) {
 /// y up becomes z up: (x, y, z) goes to (x, -z, y). Points are rows there.
 openvdb::Mat4R yUpToZUp() { return {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1}; }
 
-SparseGrid<Vec3f> turnedToZUp(SparseGrid<Vec3f> grid) {
+BrickSource<Vec3f> turnedToZUp(const BrickSource<Vec3f>& grid) {
   const auto turn = [](Vec3f& v) { v = {v.x, -v.z, v.y}; };
-  turn(grid.background);
-  for (auto& brick : grid.bricks) std::for_each(brick.values.begin(), brick.values.end(), turn);
+  BrickSource<Vec3f> turned = grid;
+  turn(turned.background);
+  turned.read = [&grid, turn](std::size_t n, BrickValues<Vec3f>& values) {
+    grid.read(n, values);
+    std::for_each(values.begin(), values.end(), turn);
+  };
+  return turned;
+}
+
+/// A grid with leaves that have masks but no samples.
+template <class VdbGrid, class T>
+typename VdbGrid::Ptr makeSkeleton(const BrickSource<T>& source, const PackedLeaves& leaves) {
+  using Leaf = typename VdbGrid::TreeType::LeafNodeType;
+  const auto background = toVdb(source.background);
+  const auto grid = VdbGrid::create(background);
+  for (std::size_t n = 0; n < leaves.corners.size(); ++n) {
+    const Vec3i& corner = leaves.corners[n];
+    auto leaf =
+        std::make_unique<Leaf>(openvdb::PartialCreate(), openvdb::Coord(corner.x, corner.y, corner.z), background);
+    typename Leaf::NodeMaskType active;
+    for (int word = 0; word < brickSide; ++word) active.template getWord<std::uint64_t>(word) = leaves.masks[n][word];
+    leaf->setValueMask(active);
+    grid->tree().addLeaf(leaf.release());
+  }
+  auto next = leaves.corners.begin();
+  for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf, ++next)
+    CHECK(leaf->origin() == openvdb::Coord(next->x, next->y, next->z), "the tree has another order");
   return grid;
 }
 
-/// The grid with leaves that have masks but no samples, and the bricks in the order of its leaves.
-template <class VdbGrid>
-struct Skeleton {
-  typename VdbGrid::Ptr grid;
-  std::vector<std::uint32_t> order;
-};
-
-template <class VdbGrid, class T>
-Skeleton<VdbGrid> makeSkeleton(const SparseGrid<T>& grid, const std::vector<LeafMask>& masks) {
-  using Leaf = typename VdbGrid::TreeType::LeafNodeType;
-  Skeleton<VdbGrid> result{VdbGrid::create(toVdb(grid.background)), {}};
-  for (std::size_t n = 0; n < grid.bricks.size(); ++n) {
-    const Vec3i& corner = grid.bricks[n].corner;
-    auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), openvdb::Coord(corner.x, corner.y, corner.z),
-                                       toVdb(grid.background));
-    typename Leaf::NodeMaskType active;
-    for (int word = 0; word < brickSide; ++word) active.template getWord<std::uint64_t>(word) = masks[n][word];
-    leaf->setValueMask(active);
-    leaf->setTransientData(static_cast<openvdb::Index32>(n));
-    result.grid->tree().addLeaf(leaf.release());
-  }
-  result.order.reserve(grid.bricks.size());
-  for (auto leaf = result.grid->tree().cbeginLeaf(); leaf; ++leaf) result.order.push_back(leaf->transientData());
-  return result;
-}
-
 template <class T>
-void describe(openvdb::GridBase& vdb, const SparseGrid<T>& grid, const std::string& name, bool zUp) {
+void describe(openvdb::GridBase& vdb, const BrickSource<T>& grid, const std::string& name, bool zUp) {
   auto transform = openvdb::math::Transform::createLinearTransform(grid.cellSize);
   transform->postTranslate({grid.origin.x, grid.origin.y, grid.origin.z});
   if (zUp) transform->postMult(yUpToZUp());
@@ -116,20 +114,21 @@ GridHead writeHead(const openvdb::GridBase& grid) {
 struct PackedGrid {
   GridHead head;
   std::vector<std::string> leaves;
+  std::string content;
 };
 
 template <class VdbGrid, class T>
-PackedGrid packGrid(const SparseGrid<T>& grid, const std::string& name, bool zUp) {
-  const std::vector<LeafMask> masks = activeMasks(grid);
-  const auto [vdb, order] = makeSkeleton<VdbGrid>(grid, masks);
-  describe(*vdb, grid, name, zUp);
-  return {writeHead(*vdb), packLeaves(grid, masks, order)};
+PackedGrid packGrid(const BrickSource<T>& source, const std::string& name, bool zUp) {
+  PackedLeaves leaves = packLeaves(source);
+  const auto vdb = makeSkeleton<VdbGrid>(source, leaves);
+  describe(*vdb, source, name, zUp);
+  return {writeHead(*vdb), std::move(leaves.pieces), std::move(leaves.content)};
 }
 
-PackedGrid packVelocity(const SparseGrid<Vec3f>& grid, const GasConventions& conventions) {
+PackedGrid packVelocity(const BrickSource<Vec3f>& source, const GasConventions& conventions) {
   const std::string& name = conventions.velocityName;
-  if (conventions.zUp) return packGrid<openvdb::Vec3SGrid>(turnedToZUp(grid), name, true);
-  return packGrid<openvdb::Vec3SGrid>(grid, name, false);
+  if (conventions.zUp) return packGrid<openvdb::Vec3SGrid>(turnedToZUp(source), name, true);
+  return packGrid<openvdb::Vec3SGrid>(source, name, false);
 }
 
 /// Fills in the offsets of a grid that begins at `place` of the file; returns where it ends.
@@ -163,20 +162,6 @@ class FileStart : public openvdb::io::Archive {
     return start.replace(place, uuid.size(), uuid);
   }
 };
-
-template <class T>
-void addGrid(ContentHash& hash, const SparseGrid<T>& grid, std::string_view name) {
-  const auto addValue = [&](const auto& value) { hash.add(&value, sizeof value); };
-  hash.add(name);
-  addValue(grid.size);
-  addValue(grid.origin);
-  addValue(grid.cellSize);
-  addValue(grid.background);
-  for (const auto& brick : grid.bricks) {
-    addValue(brick.corner);
-    addValue(brick.values);
-  }
-}
 
 /// What a grid promises beside its values; thrown as DamagedFile by the caller.
 struct BadGrid {
@@ -243,16 +228,18 @@ FrameGas readGrids(const std::string& bytes) {
 
 }  // namespace
 
-std::string contentHash(const FrameGas& gas) {
-  ContentHash hash;
-  addGrid(hash, gas.density, "density");
-  addGrid(hash, gas.temperature, "temperature");
-  addGrid(hash, gas.flame, "flame");
-  addGrid(hash, gas.velocity, "vel");
-  return hash.hex();
+GasSource sourceOf(const FrameGas& gas) {
+  return {bricksOf(gas.density), bricksOf(gas.temperature), bricksOf(gas.flame), bricksOf(gas.velocity)};
 }
 
 namespace {
+/// Of what the grids mean, in our names and order.
+std::string contentOf(const std::array<std::string, 4>& grids) {
+  ContentHash hash;
+  for (const std::string& grid : grids) hash.add(grid);
+  return hash.hex();
+}
+
 /// What the UUID is made of: the content and, where they are not ours, the conventions.
 std::string nameOf(const std::string& content, const GasConventions& conventions) {
   if (conventions == GasConventions{}) return content;
@@ -262,14 +249,20 @@ std::string nameOf(const std::string& content, const GasConventions& conventions
 }
 }  // namespace
 
-PackedGas packGas(const FrameGas& gas, const GasConventions& conventions) {
+std::string contentHash(const FrameGas& gas) {
+  const GasSource source = sourceOf(gas);
+  return contentOf({contentHash(source.density), contentHash(source.temperature), contentHash(source.flame),
+                    contentHash(source.velocity)});
+}
+
+PackedGas packGas(const GasSource& gas, const GasConventions& conventions) {
   openvdb::initialize();
   const bool zUp = conventions.zUp;
   std::array<PackedGrid, 4> grids{packGrid<openvdb::FloatGrid>(gas.density, "density", zUp),
                                   packGrid<openvdb::FloatGrid>(gas.temperature, "temperature", zUp),
                                   packGrid<openvdb::FloatGrid>(gas.flame, "flame", zUp),
                                   packVelocity(gas.velocity, conventions)};
-  PackedGas packed{{}, contentHash(gas)};
+  PackedGas packed{{}, contentOf({grids[0].content, grids[1].content, grids[2].content, grids[3].content})};
   packed.pieces.push_back(FileStart().bytes(nameOf(packed.content, conventions), std::ssize(grids)));
   std::int64_t end = std::ssize(packed.pieces[0]);
   for (PackedGrid& grid : grids) {
@@ -281,7 +274,7 @@ PackedGas packGas(const FrameGas& gas, const GasConventions& conventions) {
 }
 
 std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions) {
-  const PackedGas packed = packGas(gas, conventions);
+  const PackedGas packed = packGas(sourceOf(gas), conventions);
   std::string bytes;
   std::size_t size = 0;
   for (const std::string& piece : packed.pieces) size += piece.size();
@@ -290,7 +283,7 @@ std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions) {
   return bytes;
 }
 
-FileRecord writeGas(const std::filesystem::path& path, const FrameGas& gas) {
+FileRecord writeGas(const std::filesystem::path& path, const GasSource& gas) {
   const PackedGas packed = packGas(gas);
   return writeDurably(path, [&](std::ostream& out) {
     for (const std::string& piece : packed.pieces) out << piece;

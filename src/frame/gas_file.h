@@ -7,6 +7,7 @@
 
 #include "base/durable_file.h"
 #include "frame/frame.h"
+#include "grid/brick_source.h"
 
 namespace brisance {
 
@@ -17,12 +18,20 @@ struct GasConventions {
   friend bool operator==(const GasConventions&, const GasConventions&) = default;
 };
 
+/// What FrameGas holds, made brick by brick when it is written.
+struct GasSource {
+  BrickSource<float> density, temperature, flame;
+  BrickSource<Vec3f> velocity;
+};
+/// Reads from the gas, which must outlive it.
+GasSource sourceOf(const FrameGas& gas);
+
 /// A VDB file in pieces, one after the other, and the hash of what it means.
 struct PackedGas {
   std::vector<std::string> pieces;
   std::string content;  ///< contentHash of the gas
 };
-PackedGas packGas(const FrameGas& gas, const GasConventions& conventions = {});
+PackedGas packGas(const GasSource& gas, const GasConventions& conventions = {});
 
 /// The bytes of a VDB file that `openvdb::io::File` opens, with a UUID made from the content: equal gas, equal bytes.
 std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions = {});
@@ -30,7 +39,7 @@ std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions = {}
 FrameGas gasFromVdb(const std::string& bytes, const std::string& fileName);
 
 /// Durable, with a UUID made from the content, so that equal gas is an equal file.
-FileRecord writeGas(const std::filesystem::path& path, const FrameGas& gas);
+FileRecord writeGas(const std::filesystem::path& path, const GasSource& gas);
 /// Throws DamagedFile when it is no such file. Check its hash first: the library trusts its input.
 FrameGas readGas(const std::filesystem::path& path);
 /// Hash of the grids' values and places.

@@ -2,22 +2,18 @@
 
 #include <blosc.h>
 
-#include <cstring>
+#include <algorithm>
+#include <bit>
+#include <tuple>
 
-#include "base/check.h"
+#include "base/durable_file.h"
 #include "base/parallel.h"
 
 namespace brisance {
 
 namespace {
 
-constexpr int side = 8, samples = side * side * side;
-constexpr std::int64_t piece = 64;  // leaves
-
-template <class T>
-bool sameBits(const T& a, const T& b) {
-  return std::memcmp(&a, &b, sizeof(T)) == 0;
-}
+constexpr int side = brickSide, samples = side * side * side;
 
 /// Our bricks run along i first, leaves along k; the word of a mask is of one i.
 constexpr int leafPlace(int n) {
@@ -25,87 +21,205 @@ constexpr int leafPlace(int n) {
   return (i * side + j) * side + k;
 }
 
+/// OpenVDB's tree has children of 4096, 128 and 8 samples a side, in each the ones along z first.
+auto treePlace(const Vec3i& corner) {
+  const auto at = [&corner](int bits) { return std::array{corner.x >> bits, corner.y >> bits, corner.z >> bits}; };
+  return std::tuple(at(12), at(7), at(3));
+}
+
+/// Leaves that follow each other along z in one child of the tree: what is hashed and packed in one go.
+struct Column {
+  std::size_t first = 0, last = 0;  // in the order
+};
+
+/// The bricks in the order of the tree, and the columns of that order.
+struct TreeOrder {
+  std::vector<std::uint32_t> bricks;
+  std::vector<Column> columns;
+
+  explicit TreeOrder(const std::vector<Vec3i>& corners) : bricks(corners.size()) {
+    for (std::size_t n = 0; n < bricks.size(); ++n) bricks[n] = static_cast<std::uint32_t>(n);
+    std::sort(bricks.begin(), bricks.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return treePlace(corners[a]) < treePlace(corners[b]); });
+    const auto columnOf = [&](std::uint32_t n) { return std::tuple(corners[n].x, corners[n].y, corners[n].z >> 7); };
+    for (std::size_t n = 0; n < bricks.size(); ++n) {
+      if (n == 0 || columnOf(bricks[n]) != columnOf(bricks[n - 1])) columns.push_back({n, n});
+      ++columns.back().last;
+    }
+  }
+};
+
+/// A column's leaves.
+struct PackedColumn {
+  std::vector<Vec3i> corners;
+  std::vector<LeafMask> masks;
+  std::string bytes;
+  std::string content;  // hash of corners and values; empty: no leaves
+};
+
+using Bytes8 = std::array<std::uint8_t, 64>;
+
+/// Bit n is byte n, each of which is 0 or 1.
+std::uint64_t gatherBits(const Bytes8& bytes) {
+  constexpr std::uint64_t diagonal = 0x0102040810204080;  // brings bit 0 of byte n to bit 56 + n
+  std::uint64_t bits = 0;
+  for (int n = 0; n < 64; n += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, &bytes[n], sizeof eight);
+    bits |= (eight * diagonal >> 56) << n;
+  }
+  return bits;
+}
+
 template <class T>
-LeafMask activeMask(const std::array<T, samples>& values, const T& background) {
+LeafMask activeMask(const BrickValues<T>& leaf, const T& background) {
+  using Bits = std::array<std::uint32_t, sizeof(T) / sizeof(std::uint32_t)>;
+  const auto wanted = std::bit_cast<Bits>(background);
   LeafMask mask{};
-  for (int n = 0; n < samples; ++n) {
-    const int place = leafPlace(n);
-    mask[place / 64] |= static_cast<std::uint64_t>(!sameBits(values[n], background)) << (place % 64);
+  Bytes8 differs;
+  for (int word = 0; word < side; ++word) {
+    for (int n = 0; n < 64; ++n) {
+      const auto bits = std::bit_cast<Bits>(leaf[64 * word + n]);
+      std::uint32_t difference = 0;
+      for (std::size_t part = 0; part < bits.size(); ++part) difference |= bits[part] ^ wanted[part];
+      differs[n] = difference != 0;
+    }
+    mask[word] = gatherBits(differs);
   }
   return mask;
 }
 
-/// The active samples in the leaf's order; how many.
+bool isEmpty(const LeafMask& mask) {
+  return std::all_of(mask.begin(), mask.end(), [](std::uint64_t word) { return word == 0; });
+}
+
+/// Moves the active samples of a leaf together; how many.
 template <class T>
-int gatherActive(const std::array<T, samples>& values, const LeafMask& mask, T* active) {
+int gatherActive(BrickValues<T>& leaf, const LeafMask& mask) {
   int count = 0;
-  for (int place = 0; place < samples; ++place) {
-    active[count] = values[leafPlace(place)];  // the way back is the same
-    count += static_cast<int>(mask[place / 64] >> (place % 64) & 1);
-  }
+  for (int word = 0; word < side; ++word)
+    for (std::uint64_t rest = mask[word]; rest != 0; rest &= rest - 1)
+      leaf[count++] = leaf[64 * word + std::countr_zero(rest)];
   return count;
 }
 
 template <class T>
-void append(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+char* put(char* to, const T& value) {
+  std::memcpy(to, &value, sizeof value);
+  return to + sizeof value;
 }
 
-/// Its size, negative where the samples are stored as they are; then the samples.
-void appendPacked(std::string& bytes, const void* values, std::size_t valueSize, int count) {
+/// Its size, negative where the samples are stored as they are; then the samples. Returns the end.
+char* putPacked(char* to, const void* values, std::size_t size) {
   constexpr int level = 9;
-  const std::size_t size = valueSize * count;
-  char packed[sizeof(Vec3f) * samples + BLOSC_MAX_OVERHEAD];
-  const int packedSize = size == 0 ? 0
-                                   : blosc_compress_ctx(level, BLOSC_SHUFFLE, valueSize, size, values, packed, size,
-                                                        BLOSC_LZ4_COMPNAME, size, 1);
-  append(bytes, packedSize > 0 ? std::int64_t{packedSize} : -static_cast<std::int64_t>(size));
-  packedSize > 0 ? bytes.append(packed, packedSize) : bytes.append(static_cast<const char*>(values), size);
+  char* packed = to + sizeof(std::int64_t);
+  const int packedSize =
+      blosc_compress_ctx(level, BLOSC_SHUFFLE, sizeof(float), size, values, packed, size, BLOSC_LZ4_COMPNAME, size, 1);
+  if (packedSize > 0) {
+    put(to, std::int64_t{packedSize});
+    return packed + packedSize;
+  }
+  put(to, -static_cast<std::int64_t>(size));
+  std::memcpy(packed, values, size);
+  return packed + size;
 }
 
 template <class T>
-void appendLeaf(std::string& bytes, const std::array<T, samples>& values, const LeafMask& mask) {
+constexpr std::size_t largestLeaf = sizeof(LeafMask) + 1 + sizeof(std::int64_t) + sizeof(BrickValues<T>);
+
+template <class T>
+char* putLeaf(char* to, BrickValues<T>& leaf, const LeafMask& mask) {
   constexpr char inactiveAreBackground = 0;
-  T active[samples + 1];
-  const int count = gatherActive(values, mask, active);
-  append(bytes, mask);
-  append(bytes, inactiveAreBackground);
-  appendPacked(bytes, active, sizeof(T), count);
+  to = put(put(to, mask), inactiveAreBackground);
+  const int count = gatherActive(leaf, mask);
+  return putPacked(to, leaf.data(), sizeof(T) * count);
+}
+
+/// Calls visit(corner, values, the same in a leaf's order, mask) for each leaf of a column; the hash of them all.
+template <class T, class Visit>
+std::string visitColumn(const BrickSource<T>& source, const TreeOrder& order, const Column& column,
+                        const Visit& visit) {
+  BrickValues<T> values, leaf;
+  ContentHash hash;
+  bool any = false;
+  for (std::size_t n = column.first; n < column.last; ++n) {
+    const std::uint32_t brick = order.bricks[n];
+    source.read(brick, values);
+    for (int s = 0; s < samples; ++s) leaf[leafPlace(s)] = values[s];
+    const LeafMask mask = activeMask(leaf, source.background);
+    if (isEmpty(mask)) continue;
+    any = true;
+    hash.add(&source.corners[brick], sizeof(Vec3i));
+    hash.add(&values, sizeof values);
+    visit(source.corners[brick], leaf, mask);
+  }
+  return any ? hash.hex() : std::string();
+}
+
+/// The hash of a grid is that of its place and of the hashes of its columns.
+template <class T>
+std::string contentOf(const BrickSource<T>& source, const std::vector<PackedColumn>& columns) {
+  ContentHash hash;
+  const auto addValue = [&](const auto& value) { hash.add(&value, sizeof value); };
+  addValue(source.size);
+  addValue(source.origin);
+  addValue(source.cellSize);
+  addValue(source.background);
+  for (const PackedColumn& column : columns) hash.add(column.content);
+  return hash.hex();
+}
+
+/// make(column's number, column) for all of them, several at once.
+template <class Make>
+std::vector<PackedColumn> forColumns(const TreeOrder& order, const Make& make) {
+  std::vector<PackedColumn> columns(order.columns.size());
+  constexpr std::int64_t grain = 4;
+  parallelFor(0, std::ssize(columns), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t c = first; c < last; ++c) make(order.columns[c], columns[c]);
+  });
+  return columns;
 }
 
 }  // namespace
 
 template <class T>
-std::vector<LeafMask> activeMasks(const SparseGrid<T>& grid) {
-  std::vector<LeafMask> masks(grid.bricks.size());
-  parallelFor(0, std::ssize(masks), piece, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t n = first; n < last; ++n) masks[n] = activeMask(grid.bricks[n].values, grid.background);
+PackedLeaves packLeaves(const BrickSource<T>& source) {
+  blosc_set_splitmode(BLOSC_NEVER_SPLIT);  // a leaf's bytes in one stream: a twelfth of the calls
+  const TreeOrder order(source.corners);
+  std::vector<PackedColumn> columns = forColumns(order, [&](const Column& column, PackedColumn& packed) {
+    thread_local std::vector<char> room;
+    room.resize(std::max(room.size(), (column.last - column.first) * largestLeaf<T>));
+    char* end = room.data();
+    packed.content =
+        visitColumn(source, order, column, [&](const Vec3i& corner, BrickValues<T>& leaf, const LeafMask& mask) {
+          packed.corners.push_back(corner);
+          packed.masks.push_back(mask);
+          end = putLeaf(end, leaf, mask);
+        });
+    packed.bytes.assign(room.data(), end);
   });
-  return masks;
+  PackedLeaves leaves;
+  leaves.content = contentOf(source, columns);
+  for (PackedColumn& column : columns) {
+    if (column.corners.empty()) continue;
+    leaves.corners.insert(leaves.corners.end(), column.corners.begin(), column.corners.end());
+    leaves.masks.insert(leaves.masks.end(), column.masks.begin(), column.masks.end());
+    leaves.pieces.push_back(std::move(column.bytes));
+  }
+  return leaves;
 }
 
 template <class T>
-std::vector<std::string> packLeaves(const SparseGrid<T>& grid, const std::vector<LeafMask>& masks,
-                                    std::span<const std::uint32_t> order) {
-  const std::int64_t count = std::ssize(order);
-  std::vector<std::string> pieces((count + piece - 1) / piece);
-  parallelFor(0, std::ssize(pieces), 1, [&](std::int64_t first, std::int64_t last) {
-    std::string bytes;
-    for (std::int64_t p = first; p < last; ++p) {
-      bytes.clear();
-      for (std::int64_t n = p * piece; n < std::min(count, (p + 1) * piece); ++n)
-        appendLeaf(bytes, grid.bricks[order[n]].values, masks[order[n]]);
-      pieces[p] = bytes;
-    }
-  });
-  return pieces;
+std::string contentHash(const BrickSource<T>& source) {
+  const TreeOrder order(source.corners);
+  return contentOf(source, forColumns(order, [&](const Column& column, PackedColumn& packed) {
+                     packed.content = visitColumn(source, order, column, [](const Vec3i&, auto&, const LeafMask&) {});
+                   }));
 }
 
-template std::vector<LeafMask> activeMasks(const SparseGrid<float>&);
-template std::vector<LeafMask> activeMasks(const SparseGrid<Vec3f>&);
-template std::vector<std::string> packLeaves(const SparseGrid<float>&, const std::vector<LeafMask>&,
-                                             std::span<const std::uint32_t>);
-template std::vector<std::string> packLeaves(const SparseGrid<Vec3f>&, const std::vector<LeafMask>&,
-                                             std::span<const std::uint32_t>);
+template PackedLeaves packLeaves(const BrickSource<float>&);
+template PackedLeaves packLeaves(const BrickSource<Vec3f>&);
+template std::string contentHash(const BrickSource<float>&);
+template std::string contentHash(const BrickSource<Vec3f>&);
 
 }  // namespace brisance

@@ -1,27 +1,34 @@
-// Bricks as a VDB file holds its leaves: packed by several threads at once.
+// Bricks as a VDB file holds its leaves: made, hashed and packed by several threads at once, one at a time in each.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "grid/sparse_grid.h"
+#include "grid/brick_source.h"
 
 namespace brisance {
 
 /// One bit for each sample of a leaf, k running fastest: set where the sample differs from the background.
 using LeafMask = std::array<std::uint64_t, 8>;
 
+/// The leaves of a grid in the order in which OpenVDB walks over them; bricks of nothing but background are none.
 /// Whatever differs from the background by a single bit is active: inactive samples are kept as the background alone.
-template <class T>
-std::vector<LeafMask> activeMasks(const SparseGrid<T>& grid);
+struct PackedLeaves {
+  std::vector<Vec3i> corners;
+  std::vector<LeafMask> masks;
+  /// The leaves one after the other, in pieces of several: mask, the sign that inactive samples are the background, and
+  /// the active samples, packed by Blosc (or as they are where that makes them no smaller).
+  std::vector<std::string> pieces;
+  std::string content;  ///< contentHash of the grid
+};
 
-/// The leaves of the bricks in `order`, one after the other in pieces of many: mask, the sign that inactive samples are
-/// the background, and the active samples, packed by Blosc (or as they are where that makes them no smaller).
 template <class T>
-std::vector<std::string> packLeaves(const SparseGrid<T>& grid, const std::vector<LeafMask>& masks,
-                                    std::span<const std::uint32_t> order);
+PackedLeaves packLeaves(const BrickSource<T>& source);
+
+/// Hash of a grid's place, background and values.
+template <class T>
+std::string contentHash(const BrickSource<T>& source);
 
 }  // namespace brisance

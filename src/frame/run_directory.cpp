@@ -160,6 +160,17 @@ void RunDirectory::add(const std::string& name, const std::string& bytes, const 
   record({{name, {writeDurably(placeOf(name), bytes), content}}});
 }
 
+StagedFile RunDirectory::stage(const std::string& name, const std::function<void(std::ostream&)>& write) const {
+  StagedFile file{name, std::make_unique<DurableBatch>(), {}};
+  file.record = file.batch->add(placeOf(name), write);
+  return file;
+}
+
+void RunDirectory::add(StagedFile file) {
+  file.batch->finish();
+  record({{file.name, {file.record, ""}}});
+}
+
 void RunDirectory::add(const std::vector<NewFile>& files) {
   DurableBatch batch;
   std::map<std::string, ManifestEntry> entries;
@@ -199,9 +210,9 @@ std::string RunDirectory::addInput(const fs::path& source) {
   return name;
 }
 
-std::vector<NewFile> filesOf(const Frame& frame) {
+std::vector<NewFile> filesOf(const Frame& frame, const GasSource& source) {
   const FrameFileNames names(frame.index);
-  PackedGas gas = packGas(frame.gas);
+  PackedGas gas = packGas(source);
   std::vector<NewFile> files{{names.gas, std::move(gas.pieces), std::move(gas.content)},
                              {names.bodies, {bodiesToJson(frame)}, contentHash(frame.bodies)},
                              {names.particles, {particlesToPly(frame.particles)}, contentHash(frame.particles)},

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/durable_file.h"
-#include "frame/frame.h"
+#include "base/durable_batch.h"
+#include "frame/gas_file.h"
 
 namespace brisance {
 
@@ -27,7 +27,14 @@ struct NewFile {
 };
 
 /// gas, bodies, particles and report of a frame, and the shapes that bodies took in it.
-std::vector<NewFile> filesOf(const Frame& frame);
+std::vector<NewFile> filesOf(const Frame& frame, const GasSource& gas);
+
+/// A file on the disk under a temporary name. Without RunDirectory::add it goes again.
+struct StagedFile {
+  std::string name;  ///< in the run
+  std::unique_ptr<DurableBatch> batch;
+  FileRecord record;
+};
 
 /// A run directory being written or read. Paths in the manifest are relative, with '/'.
 class RunDirectory {
@@ -47,6 +54,9 @@ class RunDirectory {
 
   /// Writes a file durably and then the manifest.
   void add(const std::string& name, const std::string& bytes, const std::string& content = "");
+  /// The same in two parts, the second of which may wait for the disk.
+  StagedFile stage(const std::string& name, const std::function<void(std::ostream&)>& write) const;
+  void add(StagedFile file);
   /// Several files that become known together: written first, then one manifest.
   void record(const std::map<std::string, ManifestEntry>& entries);
   /// Forgets and deletes.
@@ -54,7 +64,7 @@ class RunDirectory {
 
   /// Several files, made durable together, then one manifest with all of them.
   void add(const std::vector<NewFile>& files);
-  void addFrame(const Frame& frame) { add(filesOf(frame)); }
+  void addFrame(const Frame& frame) { add(filesOf(frame, sourceOf(frame.gas))); }
   /// Copies of a file as inputs/HASH.EXT; returns that relative name.
   std::string addInput(const std::filesystem::path& source);
 

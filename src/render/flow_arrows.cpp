@@ -11,9 +11,8 @@ namespace {
 Grid3<Vec3f> dense(const SparseGrid<Vec3f>& sparse) {
   Grid3<Vec3f> grid(sparse.size, sparse.origin, sparse.cellSize, sparse.background);
   for (const auto& brick : sparse.bricks)
-    detail::forSamplesOf(brick.corner, sparse.size, [&](int sample, int i, int j, int k) {
-      grid(i, j, k) = brick.values[sample];
-      return true;
+    forRowsOf(brick.corner, sparse.size, [&](int sample, int i, int j, int k, int count) {
+      std::copy_n(&brick.values[sample], count, &grid(i, j, k));
     });
   return grid;
 }

@@ -31,11 +31,10 @@ void forBricks(const SparseGrid<float>& from, const CellBox& box, Grid3<T>& to, 
   parallelFor(0, std::ssize(from.bricks), 16, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t n = first; n < last; ++n) {
       const auto& brick = from.bricks[n];
-      detail::forSamplesOf(brick.corner, from.size, [&](int sample, int i, int j, int k) {
+      forSamplesOf(brick.corner, from.size, [&](int sample, int i, int j, int k) {
         const Vec3i cell = Vec3i(i, j, k) - box.lower + one;
         if (min(cell, Vec3i{}) == Vec3i{} && max(cell, to.size - one) == to.size - one)
           visit(to(cell.x, cell.y, cell.z), brick.values[sample]);
-        return true;
       });
     }
   });

@@ -3,10 +3,8 @@
 #include <chrono>
 
 #include "base/check.h"
-#include "render/flow_arrows.h"
 #include "render/layer_file.h"
 #include "render/picture_file.h"
-#include "render/piece_paint.h"
 
 namespace brisance {
 namespace {
@@ -67,12 +65,9 @@ RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const
     if (options.skipExisting && isDrawn(run, index, settings.writeExr)) {
       ++summary.skipped;
     } else {
-      Frame frame = readFrame(run.path(), index, readsGas);
-      RenderSettings look = settings;
-      if (settings.flow.drawn) addFlow(frame.gas, settings.flow, frame.bodies, look.materials);
-      paintPieces(frame.bodies, look.materials, assets.heat);
       const PictureTime time{options.startTime + (index - 1) / options.fps, 1 / options.fps, options.timeScale};
-      addPictures(run, index, drawPicture(frame, look, assets, time, scratch), settings);
+      Frame frame = readFrame(run.path(), index, readsGas);
+      addPictures(run, index, drawFilmFrame(std::move(frame), settings, assets, time, scratch), settings);
       ++summary.rendered;
     }
     if (options.progress) options.progress("render", n + 1, range.count());

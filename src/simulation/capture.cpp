@@ -23,19 +23,22 @@ inline float roundTo(float step, float value) {
   return std::abs(value) < 0x1p22f * step ? (value + shift) - shift : value;
 }
 
-SparseGrid<float> sparse(const Grid3<float>& grid, float background, float step) {
-  return makeSparse(grid, background, [&](int i, int j, int k) {
-    const float value = grid(i, j, k);
-    return std::abs(value - background) < step ? background : roundTo(step, value);
+BrickSource<float> rounded(const Grid3<float>& grid, float background, float step) {
+  return bricksOf<float>(grid, background, [=, &grid](float* values, int i, int j, int k, int count) {
+    const float* row = &grid.values[grid.index(i, j, k)];
+    for (int n = 0; n < count; ++n)
+      values[n] = std::abs(row[n] - background) < step ? background : roundTo(step, row[n]);
   });
 }
 
-SparseGrid<Vec3f> centreVelocities(const FluidState& gas, float step) {
+BrickSource<Vec3f> centreVelocities(const FluidState& gas, float step) {
   const MacVelocity& m = gas.velocity;
-  return makeSparse(gas.pressure, Vec3f{}, [&](int i, int j, int k) {
-    return Vec3f{roundTo(step, 0.5f * (m.u(i, j, k) + m.u(i + 1, j, k))),
-                 roundTo(step, 0.5f * (m.v(i, j, k) + m.v(i, j + 1, k))),
-                 roundTo(step, 0.5f * (m.w(i, j, k) + m.w(i, j, k + 1)))};
+  return bricksOf<Vec3f>(gas.pressure, Vec3f{}, [step, &m](Vec3f* values, int i, int j, int k, int count) {
+    const float *u = &m.u(i, j, k), *v = &m.v(i, j, k), *vAbove = &m.v(i, j + 1, k);
+    const float *w = &m.w(i, j, k), *wBehind = &m.w(i, j, k + 1);
+    for (int n = 0; n < count; ++n)
+      values[n] = {roundTo(step, 0.5f * (u[n] + u[n + 1])), roundTo(step, 0.5f * (v[n] + vAbove[n])),
+                   roundTo(step, 0.5f * (w[n] + wBehind[n]))};
   });
 }
 
@@ -65,16 +68,19 @@ FrameParticles captureParticles(const ParticleSet& p) {
 }
 }  // namespace
 
-Frame captureFrame(const WorldState& world, const SimulationSettings& settings) {
+GasSource gasOf(const WorldState& world, const SimulationSettings& settings) {
+  const FluidState& gas = world.gas;
+  return {rounded(gas.soot, 0, densityStep),
+          rounded(gas.temperature, static_cast<float>(settings.fluid.ambientTemperature), kelvinStep),
+          rounded(gas.flame, 0, densityStep),
+          centreVelocities(gas, velocityStep(settings.fluid.cellSize, settings.frameTime))};
+}
+
+Frame captureWithoutGas(const WorldState& world) {
   Frame frame;
   frame.index = world.frame;
   frame.time = world.time;
   frame.report = world.report;
-  const FluidState& gas = world.gas;
-  frame.gas.density = sparse(gas.soot, 0, densityStep);
-  frame.gas.flame = sparse(gas.flame, 0, densityStep);
-  frame.gas.temperature = sparse(gas.temperature, static_cast<float>(settings.fluid.ambientTemperature), kelvinStep);
-  frame.gas.velocity = centreVelocities(gas, velocityStep(settings.fluid.cellSize, settings.frameTime));
   frame.particles = captureParticles(world.particles);
   const RigidBodies& b = world.bodies;
   for (std::size_t n = 0; n < b.size(); ++n)
@@ -87,6 +93,13 @@ Frame captureFrame(const WorldState& world, const SimulationSettings& settings) 
                             world.looks[n].temperature,
                             world.looks[n].moves,
                             world.looks[n].shapeFrame});
+  return frame;
+}
+
+Frame captureFrame(const WorldState& world, const SimulationSettings& settings) {
+  Frame frame = captureWithoutGas(world);
+  const GasSource gas = gasOf(world, settings);
+  frame.gas = {makeSparse(gas.density), makeSparse(gas.temperature), makeSparse(gas.flame), makeSparse(gas.velocity)};
   return frame;
 }
 

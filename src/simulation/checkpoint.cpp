@@ -11,41 +11,26 @@ constexpr char magic[16] = "brisance-ckpt-2";
 
 class Writer {
  public:
+  explicit Writer(std::ostream& out) : out_(out) {}
   template <class T>
   void value(const T& v) {
     static_assert(std::is_trivially_copyable_v<T>);
-    bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+    out_.write(reinterpret_cast<const char*>(&v), sizeof v);
   }
   template <class T, class Allocator>
   void array(const std::vector<T, Allocator>& v) {
     static_assert(std::is_trivially_copyable_v<T>);
     value(static_cast<std::uint64_t>(v.size()));
-    bytes.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(T));
+    out_.write(reinterpret_cast<const char*>(v.data()), static_cast<std::streamsize>(v.size() * sizeof(T)));
   }
   /// An array whose length the settings fix.
   template <class T, class Allocator>
   void fixedArray(const std::vector<T, Allocator>& v) {
     array(v);
   }
-  std::string bytes;
-};
 
-/// How many bytes a Writer will make.
-class Measure {
- public:
-  template <class T>
-  void value(const T&) {
-    bytes += sizeof(T);
-  }
-  template <class T, class Allocator>
-  void array(const std::vector<T, Allocator>& v) {
-    bytes += sizeof(std::uint64_t) + v.size() * sizeof(T);
-  }
-  template <class T, class Allocator>
-  void fixedArray(const std::vector<T, Allocator>& v) {
-    array(v);
-  }
-  std::size_t bytes = 0;
+ private:
+  std::ostream& out_;
 };
 
 class Reader {
@@ -139,14 +124,10 @@ void archive(Archive& a, State& world) {
 }
 }  // namespace
 
-std::string writeCheckpoint(const WorldState& world) {
-  Measure measure;
-  archive(measure, world);
-  Writer writer;
-  writer.bytes.reserve(sizeof magic + measure.bytes);  // growing, it would take half as much again
+void writeCheckpoint(const WorldState& world, std::ostream& out) {
+  Writer writer(out);
   writer.value(magic);
   archive(writer, world);
-  return std::move(writer.bytes);
 }
 
 void readCheckpoint(const std::string& bytes, const std::string& fileName, WorldState& world) {

@@ -1,12 +1,14 @@
 #include "simulation/run_writer.h"
 
+#include "base/check.h"
+
 namespace brisance {
 
 void RunWriter::write(FrameToWrite frame) {
-  wait();
-  writing_ = std::async(std::launch::async, [this, frame = std::move(frame)] {
+  CHECK(!writing_.valid(), "a frame is still being written");
+  writing_ = std::async(std::launch::async, [this, frame = std::move(frame)]() mutable {
     run_.add(frame.files);
-    if (!frame.checkpoint.empty()) saveCheckpoint(run_, frame.frame, frame.checkpoint, frame.checkpointsKept);
+    if (!frame.checkpoint.name.empty()) saveCheckpoint(run_, std::move(frame.checkpoint), frame.checkpointsKept);
   });
 }
 
@@ -21,8 +23,12 @@ std::vector<std::string> checkpointsOf(const RunDirectory& run) {
   return names;
 }
 
-void saveCheckpoint(RunDirectory& run, int frame, const std::string& bytes, std::size_t keep) {
-  run.add(frameFile("checkpoints", "checkpoint", frame, "bin"), bytes);
+StagedFile stageCheckpoint(const RunDirectory& run, int frame, const std::function<void(std::ostream&)>& write) {
+  return run.stage(frameFile("checkpoints", "checkpoint", frame, "bin"), write);
+}
+
+void saveCheckpoint(RunDirectory& run, StagedFile checkpoint, std::size_t keep) {
+  run.add(std::move(checkpoint));
   std::vector<std::string> names = checkpointsOf(run);
   names.resize(names.size() > keep ? names.size() - keep : 0);
   if (!names.empty()) run.remove(names);

@@ -1,7 +1,9 @@
 // Writes what a simulation made while the simulation goes on.
 #pragma once
 
+#include <functional>
 #include <future>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -11,9 +13,8 @@ namespace brisance {
 
 /// A frame's files and, where there is one, the checkpoint at its end.
 struct FrameToWrite {
-  int frame = 1;
   std::vector<NewFile> files;
-  std::string checkpoint;           ///< empty: none
+  StagedFile checkpoint;            ///< without a name: none
   std::size_t checkpointsKept = 2;  ///< of the newest, with this one
 };
 
@@ -22,7 +23,7 @@ struct FrameToWrite {
 class RunWriter {
  public:
   explicit RunWriter(RunDirectory& run) : run_(run) {}
-  /// Waits for the one before.
+  /// The one before must have been waited for.
   void write(FrameToWrite frame);
   /// Until all is on the disk. Throws what went wrong there.
   void wait();
@@ -35,6 +36,8 @@ class RunWriter {
 /// Names of the checkpoints that the manifest knows, in their order.
 std::vector<std::string> checkpointsOf(const RunDirectory& run);
 /// Adds a checkpoint, then forgets the older ones but the last `keep`.
-void saveCheckpoint(RunDirectory& run, int frame, const std::string& bytes, std::size_t keep);
+void saveCheckpoint(RunDirectory& run, StagedFile checkpoint, std::size_t keep);
+/// Written, not yet there.
+StagedFile stageCheckpoint(const RunDirectory& run, int frame, const std::function<void(std::ostream&)>& write);
 
 }  // namespace brisance

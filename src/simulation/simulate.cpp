@@ -54,20 +54,24 @@ void summarise(const World& world, SimulationSummary& summary) {
 
 constexpr std::size_t keptWhileRunning = 2, keptWhenDone = 1;  // checkpoints
 
+/// The world as it is now.
+StagedFile stage(const RunDirectory& run, const World& world) {
+  return stageCheckpoint(run, world.frameIndex(), [&](std::ostream& out) { world.checkpoint(out); });
+}
+
 /// Hands a frame over to be written; counts the seconds in which nothing is simulated for it.
-void writeFrame(RunWriter& writer, const World& world, const SimulationSettings& settings, int last,
+void writeFrame(RunDirectory& run, RunWriter& writer, const World& world, const SimulationSettings& settings, int last,
                 SimulationSummary& summary) {
   Stopwatch watch;
   writer.wait();  // first, so that the memory of one frame suffices
-  releaseFreedMemory();
   const bool done = world.frameIndex() == last, checkpoint = done || world.frameIndex() % settings.checkpointEvery == 0;
-  FrameToWrite files{world.frameIndex(), {}, {}, done ? keptWhenDone : keptWhileRunning};
+  FrameToWrite files{{}, {}, done ? keptWhenDone : keptWhileRunning};
   {
-    const Frame frame = world.capture();
+    const Frame frame = world.captureWithoutGas();
     for (const auto& [stage, seconds] : frame.report.stageSeconds) summary.stageSeconds[stage] += seconds;
-    files.files = filesOf(frame);
+    files.files = filesOf(frame, world.gas());
   }
-  if (checkpoint) files.checkpoint = world.checkpoint();
+  if (checkpoint) files.checkpoint = stage(run, world);
   writer.write(std::move(files));
   summary.stageSeconds["write"] += watch.lap();
 }
@@ -78,7 +82,7 @@ void finishWriting(RunDirectory& run, RunWriter& writer, const World& world, Sim
   writer.wait();
   const std::vector<std::string> names = checkpointsOf(run);
   if (names.empty() || frameOfCheckpoint(names.back()) != world.frameIndex())
-    saveCheckpoint(run, world.frameIndex(), world.checkpoint(), summary.interrupted ? keptWhileRunning : keptWhenDone);
+    saveCheckpoint(run, stage(run, world), summary.interrupted ? keptWhileRunning : keptWhenDone);
   summary.stageSeconds["write"] += watch.lap();
 }
 }  // namespace
@@ -92,8 +96,8 @@ SimulationSummary simulate(const SimulationSettings& settings, RunDirectory& run
   if (run.manifest().contains("pieces.glb")) continueFrom(run, world);
   RunWriter writer(run);
   if (world.frameIndex() == 1) {
-    run.add("pieces.glb", piecesToGlb(world.capture().bodies));
-    writeFrame(writer, world, settings, last, summary);
+    run.add("pieces.glb", piecesToGlb(world.captureWithoutGas().bodies));
+    writeFrame(run, writer, world, settings, last, summary);
   }
   while (world.frameIndex() < last) {
     if (options.progress) options.progress("simulate", world.frameIndex(), last);
@@ -102,7 +106,7 @@ SimulationSummary simulate(const SimulationSettings& settings, RunDirectory& run
       break;
     }
     advanceFrom(run, writer, world);
-    writeFrame(writer, world, settings, last, summary);
+    writeFrame(run, writer, world, settings, last, summary);
   }
   finishWriting(run, writer, world, summary);
   if (options.progress && !summary.interrupted) options.progress("simulate", last, last);

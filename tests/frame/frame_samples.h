@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "frame/frame.h"
+#include "grid/brick_source.h"
 
 namespace brisance {
 

@@ -17,7 +17,7 @@ TEST(GasFile, ReadsBackTheSameGas) {
   const ScratchDirectory scratch;
   const FrameGas gas = sampleGas();
   ASSERT_GT(gas.density.bricks.size(), 4u);
-  writeGas(scratch / "gas.vdb", gas);
+  writeGas(scratch / "gas.vdb", sourceOf(gas));
   EXPECT_EQ(readGas(scratch / "gas.vdb"), gas);
 }
 
@@ -25,7 +25,7 @@ TEST(GasFile, EmptyGasIsAFileToo) {
   const ScratchDirectory scratch;
   FrameGas gas;
   gas.temperature.background = 300;
-  writeGas(scratch / "gas.vdb", gas);
+  writeGas(scratch / "gas.vdb", sourceOf(gas));
   EXPECT_EQ(readGas(scratch / "gas.vdb"), gas);
 }
 
@@ -58,7 +58,7 @@ openvdb::GridBase::Ptr openWithTheLibrary(const std::filesystem::path& path, con
 TEST(GasFile, OpensInOtherProgramsWithNamesClassesAndPlaces) {
   const ScratchDirectory scratch;
   const FrameGas gas = sampleGas();
-  writeGas(scratch / "gas.vdb", gas);
+  writeGas(scratch / "gas.vdb", sourceOf(gas));
   for (const char* name : {"density", "temperature", "flame", "vel"}) {
     const auto grid = openWithTheLibrary(scratch / "gas.vdb", name);
     EXPECT_EQ(grid->getName(), name);
@@ -72,7 +72,7 @@ TEST(GasFile, OpensInOtherProgramsWithNamesClassesAndPlaces) {
 
 TEST(GasFile, EachVoxelLiesWhereItsCellIs) {
   const ScratchDirectory scratch;
-  writeGas(scratch / "gas.vdb", sampleGas());
+  writeGas(scratch / "gas.vdb", sourceOf(sampleGas()));
   const auto temperature =
       openvdb::gridPtrCast<openvdb::FloatGrid>(openWithTheLibrary(scratch / "gas.vdb", "temperature"));
   const Grid3<float> dense = ballOfNoise(300);
@@ -121,7 +121,7 @@ TEST(GasFile, OtherConventionsMakeAnotherFile) {
 
 TEST(GasFile, HoldsFourGrids) {
   const ScratchDirectory scratch;
-  writeGas(scratch / "gas.vdb", sampleGas());
+  writeGas(scratch / "gas.vdb", sourceOf(sampleGas()));
   openvdb::initialize();
   openvdb::io::File file((scratch / "gas.vdb").string());
   file.open(/*delayLoad=*/false);

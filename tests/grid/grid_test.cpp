@@ -2,7 +2,7 @@
 
 #include "base/random.h"
 #include "grid/interpolate.h"
-#include "grid/sparse_grid.h"
+#include "grid/brick_source.h"
 
 namespace brisance {
 namespace {

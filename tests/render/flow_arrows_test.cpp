@@ -1,3 +1,4 @@
+#include "grid/brick_source.h"
 #include "render/flow_arrows.h"
 
 #include <gtest/gtest.h>

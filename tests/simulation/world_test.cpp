@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "base/check.h"
 #include "base/parallel.h"
 #include "base/vector_path.h"
@@ -11,6 +13,12 @@
 
 namespace brisance {
 namespace {
+std::string checkpointOf(const World& world) {
+  std::ostringstream out(std::ios_base::binary);
+  world.checkpoint(out);
+  return std::move(out).str();
+}
+
 using namespace test;
 
 /// A ball of 5 pieces around the charge, which swells until it is released in the middle of the fourth frame.
@@ -124,12 +132,32 @@ TEST(World, GasStaysBehindAPaneThatBlocksItUntilThePaneGoes) {
   double behind = 0, before = 0;
   constexpr int paneLayer = 9;  // cells from here on have their centres in front of it
   for (const auto& brick : gas.temperature.bricks)
-    detail::forSamplesOf(brick.corner, gas.temperature.size, [&](int n, int, int, int k) {
+    forSamplesOf(brick.corner, gas.temperature.size, [&](int n, int, int, int k) {
       (k < paneLayer ? behind : before) += std::abs(brick.values[n] - 300);
-      return true;
     });
   EXPECT_GT(behind, 1e3);
   EXPECT_LT(before, 1e-6 * behind);
+}
+
+TEST(World, StoppedBetweenSubStepsItGoesOnAsIfNeverStopped) {
+  for (SimulationSettings settings : {blockingScene(), landingBalloon()}) {
+    settings.fluid.courant = .2;  // several sub-steps a frame
+    World undisturbed(settings), stopped(settings);
+    int stops = 0;
+    for (int frame = 2; frame <= 5; ++frame) {
+      undisturbed.advance();
+      int asked = 0;
+      while (!stopped.advance([&] { return ++asked % 3 == 0; })) {
+        ++stops;
+        EXPECT_EQ(stopped.frameIndex(), frame - 1);
+        EXPECT_THROW(checkpointOf(stopped), std::logic_error);
+      }
+      EXPECT_EQ(stopped.frameIndex(), frame);
+    }
+    EXPECT_GT(stops, 4);
+    expectSame(stopped.capture(), undisturbed.capture());
+    EXPECT_EQ(checkpointOf(stopped), checkpointOf(undisturbed));
+  }
 }
 
 TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
@@ -137,7 +165,7 @@ TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
        {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon()}) {
     const Frame undisturbed = worldAt(settings, 8).capture();
     for (const int stop : {2, 4, 7}) {
-      const std::string bytes = worldAt(settings, stop).checkpoint();
+      const std::string bytes = checkpointOf(worldAt(settings, stop));
       World world(settings);
       world.restore(bytes, "test");
       EXPECT_EQ(world.frameIndex(), stop);
@@ -244,7 +272,7 @@ TEST(World, PiecesRestUntilTheyAreReleased) {
 
 TEST(World, ACheckpointThatLiesIsRefused) {
   World world(smallScene());
-  const std::string bytes = world.checkpoint();
+  const std::string bytes = checkpointOf(world);
   SimulationSettings other = smallScene();
   other.fluid.cells = {12, 14, 14};
   World smaller(other);
