@@ -34,6 +34,7 @@ struct RawOptions {
   std::string frames, size, format, profile;
   int samples = 0;
   bool overwrite = false, resume = false;
+  bool redraws = false;  ///< pictures that are there: the default of `render`
 };
 
 CLI::App* addCommand(CLI::App& app, RawOptions& raw, const std::string& name, const std::string& what) {
@@ -74,12 +75,15 @@ void addFrames(CLI::App* command, RawOptions& raw, const std::string& shape, con
   command->add_option("--frames", raw.frames, what)->option_text(shape);
 }
 
+CLI::Option* skipping(CLI::App* command, RawOptions& raw, const std::string& names) {
+  return command->add_flag(names, raw.options.skipExisting, "leave pictures that are whole as they are");
+}
+
 void addPictureOptions(CLI::App* command, RawOptions& raw) {
   command->add_option("--size", raw.size, "of the pictures, instead of the scene's")->option_text("WxH");
   command->add_option("--samples", raw.samples, "N x N rays for a pixel, instead of the scene's")
       ->check(CLI::PositiveNumber)
       ->option_text("N");
-  command->add_flag("--skip-existing", raw.options.skipExisting, "leave pictures that are whole as they are");
 }
 
 void addSceneCommands(CLI::App& app, RawOptions& raw) {
@@ -88,6 +92,7 @@ void addSceneCommands(CLI::App& app, RawOptions& raw) {
   run->add_option("-o,--output", raw.options.output, "the run directory; runs/SCENE by default")->option_text("RUN");
   addFrames(run, raw, "A-B[:S]", "simulate to B, pictures of these; a film only of 1-B");
   addPictureOptions(run, raw);
+  skipping(run, raw, "--skip-existing");
   addWorkOptions(run, raw);
   addRunOptions(run, raw);
 
@@ -109,6 +114,9 @@ void addPictureCommands(CLI::App& app, RawOptions& raw) {
   addPath(render, raw, "RUN", "the run directory");
   addFrames(render, raw, "A-B[:S]", "only these frames, from 1");
   addPictureOptions(render, raw);
+  CLI::Option* skip = skipping(render, raw, "--skip-existing,--resume");
+  render->add_flag("--overwrite", raw.redraws, "draw pictures anew that are there, as it does by default")
+      ->excludes(skip);
   addWorkOptions(render, raw);
 
   CLI::App* encode = addCommand(app, raw, "encode", "the film from the pictures of a run");

@@ -69,7 +69,8 @@ Exposed drawn(const Subject& subject, const WhittedIntegrator&) {
       Sampling::even);
 }
 
-/// Fire is no light of the list here: its gas itself is drawn from.
+/// Fire is no light of the list here: its gas itself is drawn from. Where noise is to be taken out, the samples are
+/// those of the guides.
 Exposed drawn(const Subject& subject, const PathIntegrator& integrator) {
   const RenderSettings& settings = subject.settings;
   const std::vector<LightSource> lights = lightSources(settings.lights, nullptr);
@@ -89,7 +90,7 @@ Exposed drawn(const Subject& subject, const PathIntegrator& integrator) {
                         settings.maxDepth};
   return exposed(
       subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { pathRadiance(world, rays, light); },
-      integrator.adaptive ? Sampling::byNoise : Sampling::even);
+      integrator.adaptive && !settings.denoise ? Sampling::byNoise : Sampling::even);
 }
 
 void drawLayers(const Subject& subject, PictureLayers& layers, PictureGuides& guides) {
