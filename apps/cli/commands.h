@@ -10,7 +10,9 @@ int simulateCommand(const Options& options);
 int renderCommand(const Options& options);
 int encodeCommand(const Options& options);
 
+int farmCommand(const Options& options);
 int exportCommand(const Options& options);
+int viewCommand(const Options& options);
 int fractureCommand(const Options& options);
 int checkCommand(const Options& options);
 int infoCommand(const Options& options);

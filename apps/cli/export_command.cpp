@@ -15,8 +15,10 @@
 #include "frame/piece_files.h"
 #include "frame/usd_export.h"
 #include "interruption.h"
+#include "player_page.h"
 #include "progress_bar.h"
 #include "scene/scene_file.h"
+#include "view/standalone_page.h"
 
 namespace brisance {
 
@@ -44,13 +46,6 @@ struct ExportWork {
   ProgressBar& bar;
   ExportFacts facts;
 };
-
-Scene sceneIn(const fs::path& run) {
-  const fs::path file = run / "scene.toml";
-  if (!fs::exists(file))
-    throw InputError(fmt::format("{}: holds no scene.toml; simulate this run again", run.string()));
-  return readScene(file);
-}
 
 std::vector<int> framesOf(const Options& options, const RunReader& reader) {
   const FrameRange range = options.frames.value_or(FrameRange{});
@@ -131,6 +126,13 @@ void exportFolder(ExportWork& work, std::string (*bytesOf)(const ExportWork&, in
   folder.finish();
 }
 
+void exportHtml(ExportWork& work) {
+  const PlayerRun run(work.options.path, playerSceneOf(work.scene, work.options.path));
+  const auto told = [&](int done, int total) { work.bar.show("export", done, total); };
+  const std::string page = standalonePage(playerPage(), run, work.frames, told, interruptionRequested);
+  if (!interruptionRequested()) work.facts.count(writeDurably(work.options.output, page));
+}
+
 void doExport(ExportWork& work) {
   switch (work.options.format) {
     case ExportFormat::gltf:
@@ -141,6 +143,8 @@ void doExport(ExportWork& work) {
       return exportFolder(work, gasBytes);
     case ExportFormat::obj:
       return exportFolder(work, objText);
+    case ExportFormat::html:
+      return exportHtml(work);
   }
 }
 
@@ -167,7 +171,7 @@ void tell(const ExportWork& work, double seconds) {
 int exportCommand(const Options& options) {
   const Stopwatch watch;
   const RunReader reader(options.path);
-  const Scene scene = sceneIn(options.path);
+  const Scene scene = sceneOfRun(options.path);
   ProgressBar bar(ProgressBar::styleFor(options.quiet));
   ExportWork work{options, reader, scene, framesOf(options, reader), bar, {}};
   refuseExportPlace(options);

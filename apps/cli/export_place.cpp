@@ -13,8 +13,14 @@ namespace fs = std::filesystem;
 
 bool makesFolder(ExportFormat format) { return format == ExportFormat::vdb || format == ExportFormat::obj; }
 
+/// Of a format that makes one file.
+const char* endingOf(ExportFormat format) {
+  if (format == ExportFormat::html) return ".html";
+  return format == ExportFormat::gltf ? ".glb" : ".usda";
+}
+
 void refuseEnding(const Options& options) {
-  const std::string ending = options.format == ExportFormat::gltf ? ".glb" : ".usda";
+  const std::string ending = endingOf(options.format);
   if (!makesFolder(options.format) && options.output.extension() != ending)
     throw InputError(fmt::format("{}: must end in {}", options.output.string(), ending));
 }

@@ -1,13 +1,10 @@
 // brisance: one scene file in, a film out. Reads the command line, calls the command, turns trouble into one line.
-#include <cerrno>
 #include <cstdio>
 #include <map>
-#include <new>
-#include <system_error>
 
-#include "base/check.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/trouble.h"
 #include "commands.h"
 #include "interruption.h"
 
@@ -18,17 +15,14 @@ int code(ExitCode exitCode) { return static_cast<int>(exitCode); }
 
 int call(const Options& options) {
   static const std::map<std::string, int (*)(const Options&)> commands{
-      {"run", runCommand},       {"simulate", simulateCommand},   {"render", renderCommand},
-      {"encode", encodeCommand}, {"check", checkCommand},         {"info", infoCommand},
-      {"verify", verifyCommand}, {"reference", referenceCommand}, {"fracture", fractureCommand},
-      {"export", exportCommand}};
+      {"run", runCommand},           {"simulate", simulateCommand},
+      {"render", renderCommand},     {"encode", encodeCommand},
+      {"check", checkCommand},       {"info", infoCommand},
+      {"verify", verifyCommand},     {"reference", referenceCommand},
+      {"fracture", fractureCommand}, {"export", exportCommand},
+      {"view", viewCommand},         {"farm", farmCommand}};
   const ThreadLimit limit(options.threads);
   return commands.at(options.command)(options);
-}
-
-bool meansNoRoom(const std::error_code& trouble) {
-  return trouble == std::errc::no_space_on_device || trouble == std::errc::permission_denied ||
-         trouble == std::errc::read_only_file_system || trouble == std::errc::not_enough_memory;
 }
 
 int sayAndReturn(const std::string& line, int exitCode) {
@@ -36,22 +30,10 @@ int sayAndReturn(const std::string& line, int exitCode) {
   return exitCode;
 }
 
-/// One line for whatever is thrown, and the exit code that belongs to it. Called inside a handler.
+/// Called inside a handler.
 int explainTrouble() {
-  try {
-    throw;
-  } catch (const Error& trouble) {
-    return sayAndReturn(trouble.what(), code(trouble.code));
-  } catch (const std::bad_alloc&) {
-    return sayAndReturn(
-        "brisance: not enough memory; make the grids of the scene smaller (brisance check tells the need)",
-        code(ExitCode::noRoom));
-  } catch (const std::system_error& trouble) {
-    return sayAndReturn(fmt::format("brisance: {}", trouble.what()),
-                        code(meansNoRoom(trouble.code()) ? ExitCode::noRoom : ExitCode::failed));
-  } catch (const std::exception& trouble) {
-    return sayAndReturn(fmt::format("brisance: {}", trouble.what()), code(ExitCode::failed));
-  }
+  const Trouble trouble = troubleAtHand();
+  return sayAndReturn(trouble.line, code(trouble.code));
 }
 
 int sayHowToContinue(const Options& options) {

@@ -34,6 +34,7 @@ struct RawOptions {
   std::string frames, size, format, profile;
   int samples = 0;
   bool overwrite = false, resume = false;
+  bool redraws = false;  ///< pictures that are there: the default of `render`
 };
 
 CLI::App* addCommand(CLI::App& app, RawOptions& raw, const std::string& name, const std::string& what) {
@@ -74,12 +75,15 @@ void addFrames(CLI::App* command, RawOptions& raw, const std::string& shape, con
   command->add_option("--frames", raw.frames, what)->option_text(shape);
 }
 
+CLI::Option* skipping(CLI::App* command, RawOptions& raw, const std::string& names) {
+  return command->add_flag(names, raw.options.skipExisting, "leave pictures that are whole as they are");
+}
+
 void addPictureOptions(CLI::App* command, RawOptions& raw) {
   command->add_option("--size", raw.size, "of the pictures, instead of the scene's")->option_text("WxH");
   command->add_option("--samples", raw.samples, "N x N rays for a pixel, instead of the scene's")
       ->check(CLI::PositiveNumber)
       ->option_text("N");
-  command->add_flag("--skip-existing", raw.options.skipExisting, "leave pictures that are whole as they are");
 }
 
 void addSceneCommands(CLI::App& app, RawOptions& raw) {
@@ -88,6 +92,7 @@ void addSceneCommands(CLI::App& app, RawOptions& raw) {
   run->add_option("-o,--output", raw.options.output, "the run directory; runs/SCENE by default")->option_text("RUN");
   addFrames(run, raw, "A-B[:S]", "simulate to B, pictures of these; a film only of 1-B");
   addPictureOptions(run, raw);
+  skipping(run, raw, "--skip-existing");
   addWorkOptions(run, raw);
   addRunOptions(run, raw);
 
@@ -109,6 +114,9 @@ void addPictureCommands(CLI::App& app, RawOptions& raw) {
   addPath(render, raw, "RUN", "the run directory");
   addFrames(render, raw, "A-B[:S]", "only these frames, from 1");
   addPictureOptions(render, raw);
+  CLI::Option* skip = skipping(render, raw, "--skip-existing,--resume");
+  render->add_flag("--overwrite", raw.redraws, "draw pictures anew that are there, as it does by default")
+      ->excludes(skip);
   addWorkOptions(render, raw);
 
   CLI::App* encode = addCommand(app, raw, "encode", "the film from the pictures of a run");
@@ -126,8 +134,11 @@ void addFractureCommand(CLI::App& app, RawOptions& raw) {
   raw.fractureCommand = fracture;
 }
 
-constexpr std::pair<const char*, ExportFormat> exportFormats[] = {
-    {"gltf", ExportFormat::gltf}, {"usd", ExportFormat::usd}, {"vdb", ExportFormat::vdb}, {"obj", ExportFormat::obj}};
+constexpr std::pair<const char*, ExportFormat> exportFormats[] = {{"gltf", ExportFormat::gltf},
+                                                                  {"usd", ExportFormat::usd},
+                                                                  {"vdb", ExportFormat::vdb},
+                                                                  {"obj", ExportFormat::obj},
+                                                                  {"html", ExportFormat::html}};
 
 void addExportCommand(CLI::App& app, RawOptions& raw) {
   CLI::App* command = addCommand(app, raw, "export", "a run for other tools: moving bodies, gas");
@@ -135,9 +146,9 @@ void addExportCommand(CLI::App& app, RawOptions& raw) {
   command
       ->add_option("--to", raw.format,
                    "gltf: bodies, moving, one .glb; usd: bodies and gas, one .usda; vdb: a folder of gas files; "
-                   "obj: a folder with the bodies of each frame")
+                   "obj: a folder with the bodies of each frame; html: a player in one file")
       ->required()
-      ->check(CLI::IsMember({"gltf", "usd", "vdb", "obj"}))
+      ->check(CLI::IsMember({"gltf", "usd", "vdb", "obj", "html"}))
       ->option_text("NAME");
   command->add_option("-o,--output", raw.options.output, "the file or folder to make")->required()->option_text("PATH");
   addFrames(command, raw, "A-B[:S]", "only these frames, from 1; all that are there where not given");
@@ -157,7 +168,54 @@ void finishExport(const RawOptions& raw, Options& options) {
   options.profile = ExportProfile::blender;
 }
 
+void addEngineOptions(CLI::App* command, FarmOptions& farm) {
+  command->add_option("--engine", farm.engine, "slurm; or local: processes on this machine, one after the other")
+      ->required()
+      ->check(CLI::IsMember({"slurm", "local"}))
+      ->option_text("NAME");
+  const auto number = [&](const char* name, int& value, const char* what) {
+    command->add_option(name, value, what)->check(CLI::Range(1, 1000000))->option_text("N");
+  };
+  number("--chunk", farm.chunk, "pictures of a task at most; 10 where not given");
+  number("--cores", farm.cores, "for each task");
+  number("--at-once", farm.atOnce, "tasks at the same time at most");
+  number("--rounds", farm.rounds, "how often in all pictures that are missing are tried; 3 where not given");
+  command->add_option("--partition", farm.partition, "of slurm")->option_text("NAME");
+  command->add_option("--submit", farm.submitted, "of slurm: an option for sbatch, like --submit=--mem=8G; repeatable")
+      ->option_text("OPTION")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void addFarmCommand(CLI::App& app, RawOptions& raw) {
+  FarmOptions& farm = raw.options.farm;
+  CLI::App* command = addCommand(app, raw, "farm", "what a film still lacks, as jobs of many machines");
+  addPath(command, raw, "RUN", "the run directory, where all of them see it");
+  command->add_option("--scene", farm.scene, "the scene file, where the run is yet to be made")->option_text("SCENE");
+  addEngineOptions(command, farm);
+  command->add_flag("--dry-run", farm.dryRun, "print the jobs, and do nothing");
+  command->add_flag(
+      "--check", farm.check,
+      "what the farm calls itself after the pictures: fails where some are missing, and submits them again");
+  command->add_option("--round", farm.round, "of --check: which it is")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("N");
+  command->add_option("--size", raw.size, "of the pictures, instead of the scene's")->option_text("WxH");
+  command->add_option("--samples", raw.samples, "N x N rays for a pixel, instead of the scene's")
+      ->check(CLI::PositiveNumber)
+      ->option_text("N");
+  addWorkOptions(command, raw);
+  addRunOptions(command, raw);
+}
+
 void addLookingCommands(CLI::App& app, RawOptions& raw) {
+  CLI::App* view = addCommand(app, raw, "view", "a player of a run in the browser, for this machine alone");
+  addPath(view, raw, "RUN", "the run directory; it may still be going on");
+  view->add_option("--port", raw.options.port, "on which it listens; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->option_text("P");
+  addThreads(view, raw);
+
   CLI::App* info = addCommand(app, raw, "info", "what a run, a scene or a mesh holds");
   addPath(info, raw, "PATH", "a run directory, a scene file or a mesh");
   CLI::App* verify = addCommand(app, raw, "verify", "every file of a run against the hashes of its manifest");
@@ -229,6 +287,7 @@ CommandLine parseCommandLine(int count, const char* const* arguments) {
   addPictureCommands(app, raw);
   addFractureCommand(app, raw);
   addExportCommand(app, raw);
+  addFarmCommand(app, raw);
   addLookingCommands(app, raw);
   refuseUnknownCommand(app, count, arguments);
   try {

@@ -27,12 +27,27 @@ struct PictureSize {
 /// "WxH". Throws InputError naming --size.
 PictureSize parsePictureSize(const std::string& text);
 
-enum class ExportFormat { gltf, usd, vdb, obj };
+enum class ExportFormat { gltf, usd, vdb, obj, html };
 /// Whose habits the files follow.
 enum class ExportProfile { ours, blender };
 
 /// What may happen to a run that exists.
 enum class ExistingRun { refuse, overwrite, resume };
+
+/// What can be typed behind `brisance farm`.
+struct FarmOptions {
+  std::string engine;                  ///< "slurm", "local"
+  std::filesystem::path scene;         ///< of which the run is made; empty: the run is there
+  int chunk = 10;                      ///< frames of a task
+  int cores = 0;                       ///< for each task; 0: the engine's choice
+  int atOnce = 0;                      ///< tasks at the same time; 0: the engine's choice
+  std::string partition;               ///< empty: the engine's choice
+  std::vector<std::string> submitted;  ///< handed on to the engine
+  int rounds = 3;                      ///< of making up for what is missing
+  int round = 1;
+  bool check = false;   ///< only what comes after the pictures: is anything missing?
+  bool dryRun = false;  ///< do nothing, and say what would be done
+};
 
 struct Options {
   std::vector<std::string> arguments;  ///< as typed, the program's name first
@@ -47,8 +62,10 @@ struct Options {
   int threads = 0;                             ///< 0: all cores
   ExistingRun existing = ExistingRun::refuse;  ///< --overwrite, --resume
   FractureOptions fracture;
+  FarmOptions farm;
   ExportFormat format = ExportFormat::gltf;  ///< of `export`
   ExportProfile profile = ExportProfile::ours;
+  int port = 0;  ///< of `view`; 0: any that is free
   bool skipExisting = false;
   bool json = false;
   bool quiet = false;

@@ -55,6 +55,13 @@ json asJson(const Balance& balance) {
           {"error", balance.error()}};
 }
 
+int countPictures(const RunDirectory& run) {
+  const auto isPicture = [](const auto& item) {
+    return item.first.starts_with("images/") && item.first.ends_with(".png");
+  };
+  return static_cast<int>(std::count_if(run.manifest().begin(), run.manifest().end(), isPicture));
+}
+
 void addSeconds(json& stage, const StageSeconds& seconds) {
   for (const auto& [part, value] : seconds)
     stage[part] = (stage.contains(part) ? stage[part].get<double>() : 0.0) + value;
@@ -64,41 +71,50 @@ void addSeconds(json& stage, const StageSeconds& seconds) {
 
 RunRecord::RunRecord(RunDirectory& run, const Scene& scene)
     : run_(run), record_(std::make_unique<json>(earlierRecord(run))) {
-  json& record = *record_;
-  record["version"] = BRISANCE_VERSION;
-  record["seed"] = scene.simulation.seed;
-  record["host"] = hostName();
-  record["threads"] = threadCount();
-  record["vector"] = vectorPathName();
-  if (!record.contains("seconds")) record["seconds"] = json::object();
+  const std::uint64_t seed = scene.simulation.seed;
+  news_.emplace_back([seed](json& record) {
+    record["version"] = BRISANCE_VERSION;
+    record["seed"] = seed;
+    record["host"] = hostName();
+    record["threads"] = threadCount();
+    record["vector"] = vectorPathName();
+    if (!record.contains("seconds")) record["seconds"] = json::object();
+  });
 }
 
 RunRecord::~RunRecord() = default;
 
 void RunRecord::addSimulation(const SimulationSummary& summary, double seconds) {
-  json& record = *record_;
-  record["frames"] = summary.frames;
-  record["substeps"] = summary.substeps;
-  record["courant"] = summary.courant;
-  record["divergence"] = summary.divergence;
-  record["balances"] = {{"volume", asJson(summary.volume)}, {"heat", asJson(summary.heat)}};
-  addSeconds(record["seconds"]["simulate"], summary.stageSeconds);
-  addSeconds(record["seconds"]["simulate"], {{"total", seconds}});
+  news_.emplace_back([summary, seconds](json& record) {
+    record["frames"] = summary.frames;
+    record["substeps"] = summary.substeps;
+    record["courant"] = summary.courant;
+    record["divergence"] = summary.divergence;
+    record["balances"] = {{"volume", asJson(summary.volume)}, {"heat", asJson(summary.heat)}};
+    addSeconds(record["seconds"]["simulate"], summary.stageSeconds);
+    addSeconds(record["seconds"]["simulate"], {{"total", seconds}});
+  });
 }
 
 void RunRecord::addStage(const std::string& stage, const StageSeconds& seconds) {
-  addSeconds((*record_)["seconds"][stage], seconds);
+  news_.emplace_back([stage, seconds](json& record) { addSeconds(record["seconds"][stage], seconds); });
 }
 
-void RunRecord::setPictures(int pictures) { (*record_)["pictures"] = pictures; }
-
-void RunRecord::setFilm(int frames) { (*record_)["film"] = {{"file", "film.mp4"}, {"frames", frames}}; }
+void RunRecord::setFilm(int frames) {
+  news_.emplace_back([frames](json& record) { record["film"] = {{"file", "film.mp4"}, {"frames", frames}}; });
+}
 
 void RunRecord::write() {
-  json& record = *record_;
-  const double earlier = record.value("peak_memory_mb", 0.0);
-  record["peak_memory_mb"] = std::max(earlier, static_cast<double>(peakMemory()) / bytesPerMegabyte);
-  run_.add(recordName, record.dump(2) + "\n");
+  run_.inTurn([this] {
+    json record = earlierRecord(run_);
+    for (const News& news : news_) news(record);
+    if (const int pictures = countPictures(run_); pictures > 0) record["pictures"] = pictures;
+    const double earlier = record.value("peak_memory_mb", 0.0);
+    record["peak_memory_mb"] = std::max(earlier, static_cast<double>(peakMemory()) / bytesPerMegabyte);
+    run_.add(recordName, record.dump(2) + "\n");
+    *record_ = std::move(record);
+    news_.clear();
+  });
 }
 
 std::string RunRecord::inOneLine() const { return record_->dump(); }

@@ -11,6 +11,7 @@
 #include "render/render_run.h"
 #include "run_record.h"
 #include "scene/film.h"
+#include "typed_scene.h"
 
 namespace brisance {
 
@@ -26,46 +27,6 @@ struct Work {
   ProgressBar& bar;
   RunRecord& record;
 };
-
-/// --set, and after it --size and --samples as the keys that they stand for, so that one reader checks them all.
-std::vector<std::string> overridesOf(const Options& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (options.size) {
-    overrides.push_back(fmt::format("render.width={}", options.size->width));
-    overrides.push_back(fmt::format("render.height={}", options.size->height));
-  }
-  if (options.samples) overrides.push_back(fmt::format("render.samples={}", *options.samples));
-  return overrides;
-}
-
-/// The scene of `run` and `simulate`.
-Scene sceneAsTyped(const Options& options) {
-  Scene scene = readScene(options.path, overridesOf(options));
-  const int last = options.frames ? options.frames->last : 0;
-  if (last > scene.simulation.frames)
-    throw InputError(fmt::format("brisance: --frames: must end at or before the scene's {} frames, got {}",
-                                 scene.simulation.frames, last));
-  checkInputs(scene);
-  return scene;
-}
-
-/// A run's own scene. Throws InputError when --set wants what only a new simulation can give.
-Scene sceneOfRun(const Options& options) {
-  const fs::path file = options.path / "scene.toml";
-  if (!fs::exists(file))
-    throw InputError(
-        fmt::format("{}: holds no scene.toml; name a directory that 'brisance run' or 'brisance simulate' made",
-                    options.path.string()));
-  const Scene made = readScene(file);
-  Scene scene = readScene(file, overridesOf(options));
-  Scene onlyPictures = scene;
-  onlyPictures.simulation = made.simulation;
-  const std::string key = firstDifference(writeScene(onlyPictures), writeScene(scene));
-  if (!key.empty())
-    throw InputError(fmt::format(
-        "brisance: --set: {} belongs to the simulation, which is done; simulate it anew to change it", key));
-  return scene;
-}
 
 ProgressSink sinkOf(ProgressBar& bar) {
   return [&bar](const std::string& stage, int done, int total) { bar.show(stage, done, total); };
@@ -84,13 +45,6 @@ bool simulateStage(Work& work) {
   return !summary.interrupted;
 }
 
-int countPictures(const RunDirectory& run) {
-  const auto isPicture = [](const auto& item) {
-    return item.first.starts_with("images/") && item.first.ends_with(".png");
-  };
-  return static_cast<int>(std::count_if(run.manifest().begin(), run.manifest().end(), isPicture));
-}
-
 bool renderStage(Work& work) {
   const FrameRange frames = work.options.frames.value_or(FrameRange{});
   RenderRunOptions options;
@@ -104,7 +58,6 @@ bool renderStage(Work& work) {
   options.stopRequested = interruptionRequested;
   const RenderSummary summary = renderRun(work.run, work.scene.render, options);
   work.record.addStage("render", {{"total", summary.seconds}});
-  work.record.setPictures(countPictures(work.run));
   work.record.write();
   return !summary.interrupted;
 }
@@ -162,7 +115,7 @@ int simulateCommand(const Options& options) {
 
 int renderCommand(const Options& options) {
   const Scene scene = sceneOfRun(options);
-  RunDirectory run(options.path, RunDirectory::Mode::open);
+  RunDirectory run(options.path, RunDirectory::Mode::share);
   return doStages(options, scene, run, {renderStage});
 }
 
@@ -173,7 +126,7 @@ int encodeCommand(const Options& options) {
 }
 
 std::string continuingOption(const std::string& command) {
-  if (command == "run" || command == "simulate") return "--resume";
+  if (command == "run" || command == "simulate" || command == "farm") return "--resume";
   return command == "render" ? "--skip-existing" : "";
 }
 

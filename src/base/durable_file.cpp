@@ -112,10 +112,24 @@ void removeTemporaries(const fs::path& directory) {
   }
 }
 
-DirectoryLock::DirectoryLock(const fs::path& directory)
-    : descriptor_(::open((directory / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (descriptor_ < 0) throwSystemError(directory, "cannot be locked", errno);
-  if (uninterrupted([&] { return ::flock(descriptor_, LOCK_EX | LOCK_NB); }) == 0) return;
+namespace {
+
+int openLockFile(const fs::path& directory, const char* name) {
+  const int descriptor = ::open((directory / name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) throwSystemError(directory, "cannot be locked", errno);
+  return descriptor;
+}
+
+bool locked(int descriptor, int operation) {
+  return uninterrupted([&] { return ::flock(descriptor, operation); }) == 0;
+}
+
+}  // namespace
+
+DirectoryLock::DirectoryLock(const fs::path& directory, Kind kind)
+    : descriptor_(openLockFile(directory, ".lock")), kind_(kind) {
+  foundAlone_ = locked(descriptor_, LOCK_EX | LOCK_NB);
+  if (foundAlone_ || (kind == Kind::together && locked(descriptor_, LOCK_SH | LOCK_NB))) return;
   const int reason = errno;
   ::close(descriptor_);
   if (reason != EWOULDBLOCK) throwSystemError(directory, "cannot be locked", reason);
@@ -125,5 +139,18 @@ DirectoryLock::DirectoryLock(const fs::path& directory)
 }
 
 DirectoryLock::~DirectoryLock() { ::close(descriptor_); }
+
+void DirectoryLock::letOthersIn() {
+  if (kind_ == Kind::together) locked(descriptor_, LOCK_SH);
+}
+
+DirectoryTurn::DirectoryTurn(const fs::path& directory) : descriptor_(openLockFile(directory, ".turn")) {
+  if (locked(descriptor_, LOCK_EX)) return;
+  const int reason = errno;
+  ::close(descriptor_);
+  throwSystemError(directory, "cannot be locked", reason);
+}
+
+DirectoryTurn::~DirectoryTurn() { ::close(descriptor_); }
 
 }  // namespace brisance

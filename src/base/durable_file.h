@@ -56,14 +56,35 @@ void makeDirectories(const std::filesystem::path& path);
 /// Removes what a killed process left under temporary names, in one directory.
 void removeTemporaries(const std::filesystem::path& directory);
 
-/// One living writer per directory (flock, released by the kernel however the process ends).
+/// Who may write in a directory: one process alone, or several together (flock, released by the kernel however a
+/// process ends; on file systems that pass it on, NFS among them, also between machines).
 class DirectoryLock {
  public:
-  /// Throws Error(failed) when another process holds it.
-  explicit DirectoryLock(const std::filesystem::path& directory);
+  enum class Kind { alone, together };
+  /// Throws Error(failed) when another process holds a lock that does not go with this one.
+  explicit DirectoryLock(const std::filesystem::path& directory, Kind kind = Kind::alone);
   ~DirectoryLock();
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+  /// No other process had a lock when this one was taken.
+  bool foundAlone() const { return foundAlone_; }
+  /// From then on others may come, where the kind is `together`.
+  void letOthersIn();
+
+ private:
+  int descriptor_;
+  Kind kind_;
+  bool foundAlone_ = false;
+};
+
+/// One after the other: while it lives, no other process that takes its turn in the directory has it. Waits.
+class DirectoryTurn {
+ public:
+  explicit DirectoryTurn(const std::filesystem::path& directory);
+  ~DirectoryTurn();
+  DirectoryTurn(const DirectoryTurn&) = delete;
+  DirectoryTurn& operator=(const DirectoryTurn&) = delete;
 
  private:
   int descriptor_;

@@ -10,5 +10,7 @@ namespace brisance {
 using ProgressSink = std::function<void(const std::string& stage, int done, int total)>;
 /// Asked between pieces of work: true once the user wants to stop.
 using StopRequested = std::function<bool()>;
+/// Thrown by work that was asked to stop and has nothing to show for itself yet.
+struct Interrupted {};
 
 }  // namespace brisance

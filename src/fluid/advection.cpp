@@ -122,26 +122,35 @@ double createdContent(const PaddedGrid& scalar, const ScalarFlow& flow, float am
   });
 }
 
-/// What leaves through the box's faces: sum of the outward flux of (s - ambient), times h^2 for the caller's h.
+/// What leaves through one of the box's faces: sum of the outward flux of (s - ambient), times h^2 for the caller's h.
+double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, int face, float ambient, float weight) {
+  const int axis = face / 2, b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
+  const Grid3<float>& normal = velocity.component(axis);
+  const std::int64_t step = padded.values.stride(axis);
+  const int layer = face % 2 ? normal.size[axis] - 1 : 0;
+  constexpr int rows = 32;
+  const double sum = parallelSum(normal.size[c], rows, [&](std::int64_t first, std::int64_t last) {
+    double part = 0;
+    for (std::int64_t q = first; q < last; ++q)
+      for (int p = 0; p < normal.size[b]; ++p) {
+        const float speed = normal.values[layer * normal.stride(axis) + p * normal.stride(b) + q * normal.stride(c)];
+        const float* upper = padded.values.values.data() + (layer + 1) * step + (p + 1) * padded.values.stride(b) +
+                             (q + 1) * padded.values.stride(c);
+        part += donorFlux(speed, upper[-step] - ambient, upper[0] - ambient, weight);
+      }
+    return part;
+  });
+  return face % 2 ? sum : -sum;
+}
+
 double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, float ambient, float weight) {
   double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Grid3<float>& normal = velocity.component(axis);
-    const int b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
-    const std::int64_t step = padded.values.stride(axis);
-    for (int side = 0; side < 2; ++side) {
-      const int layer = side ? normal.size[axis] - 1 : 0;
-      for (int q = 0; q < normal.size[c]; ++q)
-        for (int p = 0; p < normal.size[b]; ++p) {
-          const float speed = normal.values[layer * normal.stride(axis) + p * normal.stride(b) + q * normal.stride(c)];
-          const float* upper = padded.values.values.data() + (layer + 1) * step + (p + 1) * padded.values.stride(b) +
-                               (q + 1) * padded.values.stride(c);
-          const double flux = donorFlux(speed, upper[-step] - ambient, upper[0] - ambient, weight);
-          sum += side ? flux : -flux;
-        }
-    }
-  }
+  for (int face = 0; face < 6; ++face) sum += outwardFlux(padded, velocity, face, ambient, weight);
   return sum;
+}
+
+bool isSemiLagrangian(const FluidSettings& settings) {
+  return std::holds_alternative<SemiLagrangian>(settings.advection);
 }
 
 /// A scalar on its way.
@@ -189,14 +198,17 @@ struct ScalarTransport {
     account(predicted, -1, 0.5);
   }
   void by(const SemiLagrangian&) const {
-    scratch.velocity.fill(gas.velocity, settings);
-    traceBack(gas, scratch.velocity, {settings.faces}, dt, scratch.scalar, scratch.newScalar);
+    carryBack(gas, {settings.faces}, scratch.paths, scratch.scalar, scratch.newScalar);
     account(scratch.scalar, 1, 1);
   }
 };
 
-void carry(Grid3<float>& scalar, const ScalarTransport& transport) {
+void carry(Grid3<float>& scalar, const ScalarTransport& transport, Paths paths) {
   AdvectionScratch& scratch = transport.scratch;
+  if (paths == Paths::toTrace && isSemiLagrangian(transport.settings)) {
+    scratch.velocity.fill(transport.gas.velocity, transport.settings);
+    tracePaths(scratch.velocity, transport.settings.faces, transport.dt, scratch.paths);
+  }
   padScalar(scratch.scalar, scalar, transport.gas.velocity, transport.settings.faces, transport.ambient);
   if (!(scratch.newScalar.size == scalar.size)) scratch.newScalar = scalar;
   std::visit([&](const auto& scheme) { transport.by(scheme); }, transport.settings.advection);
@@ -265,14 +277,16 @@ struct VelocityTransport {
   }
   void by(const SemiLagrangian&) const {
     for (int axis = 0; axis < 3; ++axis)
-      traceBack(gas, scratch.velocity, {settings.faces, axis}, dt, scratch.velocity.component[axis],
+      carryBack(gas, {settings.faces, axis}, scratch.paths, scratch.velocity.component[axis],
                 scratch.newVelocity.component(axis));
   }
 };
 }  // namespace
 
-void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, AdvectionScratch& scratch) {
+void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, AdvectionScratch& scratch, Paths paths) {
   scratch.velocity.fill(gas.velocity, settings);
+  if (paths == Paths::toTrace && isSemiLagrangian(settings))
+    tracePaths(scratch.velocity, settings.faces, dt, scratch.paths);
   if (scratch.newVelocity.u.count() != gas.velocity.u.count()) scratch.newVelocity = gas.velocity;
   const VelocityTransport transport{gas, settings, dt, scratch};
   std::visit([&](const auto& scheme) { transport.by(scheme); }, settings.advection);
@@ -280,14 +294,14 @@ void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, A
 }
 
 void carryScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient, double dt,
-                 AdvectionScratch& scratch) {
-  carry(scalar, {gas, settings, ambient, dt, scratch, nullptr});
+                 AdvectionScratch& scratch, Paths paths) {
+  carry(scalar, {gas, settings, ambient, dt, scratch, nullptr}, paths);
 }
 
 Balance advectScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient,
                      double dt, AdvectionScratch& scratch) {
   Balance balance;
-  carry(scalar, {gas, settings, ambient, dt, scratch, &balance});
+  carry(scalar, {gas, settings, ambient, dt, scratch, &balance}, Paths::toTrace);
   return balance;
 }
 

@@ -5,6 +5,7 @@
 #include "base/report.h"
 #include "fluid/fluid_state.h"
 #include "fluid/padded_grid.h"
+#include "fluid/semi_lagrangian.h"
 
 namespace brisance {
 
@@ -15,14 +16,19 @@ struct AdvectionScratch {
   PaddedVelocity stage[2];  ///< between the passes of a scheme
   MacVelocity newVelocity;
   Grid3<float> newScalar;
+  FlowPaths paths;  ///< of semi_lagrangian
 };
 
+/// Whether the scratch knows the paths of the flow: it does when the last transport had the same velocity and step.
+enum class Paths { toTrace, known };
+
 /// Transports all velocity components over dt [s]; closed faces keep their speed.
-void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, AdvectionScratch& scratch);
+void advectVelocity(FluidState& gas, const FluidSettings& settings, double dt, AdvectionScratch& scratch,
+                    Paths paths = Paths::toTrace);
 
 /// Transports a scalar over dt [s]; what comes in through open faces is `ambient`.
 void carryScalar(Grid3<float>& scalar, const FluidState& gas, const FluidSettings& settings, float ambient, double dt,
-                 AdvectionScratch& scratch);
+                 AdvectionScratch& scratch, Paths paths = Paths::toTrace);
 
 /// The same, and the balance of (scalar - ambient) over the box, in scalar units x m3: `in` by created gas, `out`
 /// through open faces. It closes for donor_cell, and for maccormack where that clamps nothing.

@@ -55,14 +55,15 @@ Balance stepTemperature(FluidState& gas, const FluidSettings& s, double dt, Flui
 Balance moveScalars(FluidState& gas, const FluidSettings& settings, const Burning& burning, double dt,
                     FluidScratch& scratch) {
   const Balance heat = stepTemperature(gas, settings, dt, scratch);
-  carryScalar(gas.soot, gas, settings, 0, dt, scratch.advection);
-  carryScalar(gas.flame, gas, settings, 0, dt, scratch.advection);
+  carryScalar(gas.soot, gas, settings, 0, dt, scratch.advection, Paths::known);
+  carryScalar(gas.flame, gas, settings, 0, dt, scratch.advection, Paths::known);
   addBurnt(gas, burning, dt);
   return heat;
 }
 
 void moveVelocity(FluidState& gas, const FluidSettings& settings, double dt, FluidScratch& scratch) {
-  advectVelocity(gas, settings, dt, scratch.advection);
+  const bool asScalars = gas.solid.empty;  // else the gas beside solids has a speed of its own
+  advectVelocity(gas, settings, dt, scratch.advection, asScalars ? Paths::known : Paths::toTrace);
   if (settings.viscosity > 0) diffuseVelocity(gas, settings, dt);
   addForces(gas, settings, dt);
 }

@@ -16,11 +16,14 @@ void forGhosts(Grid3<float>& padded, int face, const At& at) {
   const int layer = face % 2 ? padded.size[axis] - 1 : 0;
   const std::int64_t inward = face % 2 ? -padded.stride(axis) : padded.stride(axis);
   const int edgeB = b < axis ? 0 : 1, edgeC = c < axis ? 0 : 1;
-  for (int q = edgeC; q < padded.size[c] - edgeC; ++q)
-    for (int p = edgeB; p < padded.size[b] - edgeB; ++p) {
-      const std::int64_t ghost = layer * padded.stride(axis) + p * padded.stride(b) + q * padded.stride(c);
-      at(padded.values[ghost], padded.values[ghost + inward], p - 1, q - 1);
-    }
+  constexpr int rows = 32;  // fewer are not worth another thread
+  parallelFor(edgeC, padded.size[c] - edgeC, rows, [&](std::int64_t first, std::int64_t last) {
+    for (int q = static_cast<int>(first); q < last; ++q)
+      for (int p = edgeB; p < padded.size[b] - edgeB; ++p) {
+        const std::int64_t ghost = layer * padded.stride(axis) + p * padded.stride(b) + q * padded.stride(c);
+        at(padded.values[ghost], padded.values[ghost + inward], p - 1, q - 1);
+      }
+  });
 }
 
 /// Ghosts beyond a periodic face: the samples inside the opposite one. `shared`: the samples of both faces are one.

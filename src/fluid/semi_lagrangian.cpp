@@ -1,5 +1,6 @@
 #include "fluid/semi_lagrangian.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "base/parallel.h"
@@ -134,31 +135,92 @@ Vec3f offsetFrom(int component, const SampleGrid& samples) {
   return offset;
 }
 
+/// Follows a block of cells back.
 class Tracer {
  public:
-  Tracer(const PaddedVelocity& velocity, const SampleGrid& samples, double dt, const PaddedGrid& old)
-      : speed_{Sampler(velocity.component[0], {samples.faces, 0}, offsetFrom(0, samples)),
-               Sampler(velocity.component[1], {samples.faces, 1}, offsetFrom(1, samples)),
-               Sampler(velocity.component[2], {samples.faces, 2}, offsetFrom(2, samples))},
-        value_(old, samples, Vec3f{}),
-        perSpeed_(static_cast<float>(-dt / old.values.cellSize)) {}
+  Tracer(const PaddedVelocity& velocity, const SampleGrid& cells, float perSpeed)
+      : speed_{Sampler(velocity.component[0], {cells.faces, 0}, offsetFrom(0, cells)),
+               Sampler(velocity.component[1], {cells.faces, 1}, offsetFrom(1, cells)),
+               Sampler(velocity.component[2], {cells.faces, 2}, offsetFrom(2, cells))},
+        perSpeed_(perSpeed) {}
 
-  void trace(Block& block, float* values) {
+  void trace(Block& block) {
     for (int c = 0; c < 3; ++c) speed_[c].atRest(block, block.speed[c]);
     follow(block, 0.5f * perSpeed_);
     for (int c = 0; c < 3; ++c) speed_[c].at(block, block.speed[c]);
     follow(block, perSpeed_);
-    value_.at(block, values);
   }
 
  private:
-  void follow(Block& block, float perSpeed) {
+  void follow(Block& block, float perSpeed) const {
     for (int c = 0; c < 3; ++c)
       for (int n = 0; n < block.count; ++n) block.shift[c][n] = perSpeed * block.speed[c][n];
   }
   Sampler speed_[3];
-  Sampler value_;
   float perSpeed_;
+};
+
+/// Calls work(thread's own copy of `tool`, block) for the blocks of all samples of a size.
+template <class Tool, class Work>
+void forBlocks(const Vec3i& size, const Tool& tool, const Work& work) {
+  parallelFor(0, size.z, 1, [&](std::int64_t first, std::int64_t last) {
+    Tool own = tool;
+    Block block;
+    for (int k = static_cast<int>(first); k < last; ++k)
+      for (int j = 0; j < size.y; ++j)
+        for (int i = 0; i < size.x; i += blockSamples) {
+          block.begin = {i, j, k};
+          block.count = std::min(blockSamples, size.x - i);
+          work(own, block);
+        }
+  });
+}
+
+/// The paths from a block's samples.
+class PathReader {
+ public:
+  PathReader(const FlowPaths& paths, const SampleGrid& samples) : paths_(paths), axis_(samples.axis) {
+    if (axis_ != SampleGrid::cells) periodic_ = samples.faces[2 * axis_] == FaceKind::periodic;
+  }
+  void read(Block& block) const {
+    for (int c = 0; c < 3; ++c) {
+      const Grid3<float>& path = paths_[c];
+      if (axis_ == SampleGrid::cells)
+        std::copy_n(&path(block.begin.x, block.begin.y, block.begin.z), block.count, block.shift[c]);
+      else if (axis_ == 0)
+        meanAlongRow(path, block, block.shift[c]);
+      else
+        meanOfRows(path, block, block.shift[c]);
+    }
+  }
+
+ private:
+  /// The cell after (or, for a face's number less one, before) a face; at the end of the box the one inside it.
+  int cell(const Grid3<float>& path, int number) const {
+    const int count = path.size[axis_];
+    if (number >= 0 && number < count) return number;
+    return periodic_ ? (number + count) % count : std::clamp(number, 0, count - 1);
+  }
+  void meanOfRows(const Grid3<float>& path, const Block& block, float* mean) const {
+    Vec3i before = block.begin, after = block.begin;
+    before[axis_] = cell(path, before[axis_] - 1);
+    after[axis_] = cell(path, after[axis_]);
+    const float *a = &path(before.x, before.y, before.z), *b = &path(after.x, after.y, after.z);
+    for (int n = 0; n < block.count; ++n) mean[n] = 0.5f * (a[n] + b[n]);
+  }
+  void meanAlongRow(const Grid3<float>& path, const Block& block, float* mean) const {
+    const float* row = &path(0, block.begin.y, block.begin.z);
+    const int begin = block.begin.x, end = begin + block.count;
+    for (int i = std::max(begin, 1); i < std::min(end, path.size.x); ++i)
+      mean[i - begin] = 0.5f * (row[i - 1] + row[i]);
+    const auto atEnd = [&](int i) { mean[i - begin] = 0.5f * (row[cell(path, i - 1)] + row[cell(path, i)]); };
+    if (begin == 0) atEnd(0);
+    if (end == path.size.x + 1) atEnd(path.size.x);
+  }
+
+  const FlowPaths& paths_;
+  int axis_;
+  bool periodic_ = false;
 };
 
 /// Among solids a scalar is looked up with an eye to what stands between.
@@ -170,30 +232,41 @@ void seeAround(const VisibleSampler& sampler, const Block& block, float* values)
 }
 }  // namespace
 
-void traceBack(const FluidState& gas, const PaddedVelocity& velocity, const SampleGrid& samples, double dt,
-               const PaddedGrid& old, Grid3<float>& result) {
+void tracePaths(const PaddedVelocity& velocity, const Faces& faces, double dt, FlowPaths& paths) {
+  const Grid3<float>& u = velocity.component[0].values;
+  const Vec3i size = u.size - Vec3i(3, 2, 2);  // without the ghosts, and between the faces
+  for (Grid3<float>& path : paths)
+    if (!(path.size == size)) path = Grid3<float>(size, {}, u.cellSize);
+  const Tracer tracer(velocity, {faces}, static_cast<float>(-dt / u.cellSize));
+  forBlocks(size, tracer, [&](Tracer& own, Block& block) {
+    runWide([&] { own.trace(block); });
+    for (int c = 0; c < 3; ++c)
+      std::copy_n(block.shift[c], block.count, &paths[c](block.begin.x, block.begin.y, block.begin.z));
+  });
+}
+
+void carryBack(const FluidState& gas, const SampleGrid& samples, const FlowPaths& paths, const PaddedGrid& old,
+               Grid3<float>& result) {
   const bool cells = samples.axis == SampleGrid::cells;
   const VisibleSampler visible(gas.solid, samples.faces, old);
-  parallelFor(0, result.size.z, 1, [&](std::int64_t first, std::int64_t last) {
-    Tracer tracer(velocity, samples, dt, old);
-    Block block;
-    for (int k = static_cast<int>(first); k < last; ++k)
-      for (int j = 0; j < result.size.y; ++j)
-        for (int i = 0; i < result.size.x; i += blockSamples) {
-          block.begin = {i, j, k};
-          block.count = std::min(blockSamples, result.size.x - i);
-          float* values = &result(i, j, k);
-          runWide([&] { tracer.trace(block, values); });
-          if (cells && !gas.solid.empty) seeAround(visible, block, values);
-          const auto keep = [&](const auto& closed) {
-            for (int n = 0; n < block.count; ++n)
-              if (closed(i + n)) values[n] = old.row(j, k)[i + n];
-          };
-          if (cells)
-            keep([&](int at) { return gas.solid.inside(at, j, k) != 0; });
-          else
-            keep([&](int at) { return !(gas.solid.openShare.component(samples.axis)(at, j, k) > 0); });
-        }
+  const PathReader reader(paths, samples);
+  forBlocks(result.size, Sampler(old, samples, Vec3f{}), [&](Sampler& sampler, Block& block) {
+    float* values = &result(block.begin.x, block.begin.y, block.begin.z);
+    runWide([&] {
+      reader.read(block);
+      sampler.at(block, values);
+    });
+    if (cells && !gas.solid.empty) seeAround(visible, block, values);
+    const auto keep = [&](const auto& closed) {
+      for (int n = 0; n < block.count; ++n)
+        if (closed(block.begin.x + n)) values[n] = old.row(block.begin.y, block.begin.z)[block.begin.x + n];
+    };
+    if (cells && gas.solid.empty) return;
+    if (cells)
+      keep([&](int at) { return gas.solid.inside(at, block.begin.y, block.begin.z) != 0; });
+    else
+      keep(
+          [&](int at) { return !(gas.solid.openShare.component(samples.axis)(at, block.begin.y, block.begin.z) > 0); });
   });
 }
 

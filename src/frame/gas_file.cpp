@@ -55,7 +55,8 @@ typename VdbGrid::Ptr makeSkeleton(const BrickSource<T>& source, const PackedLea
   const auto grid = VdbGrid::create(background);
   for (std::size_t n = 0; n < leaves.corners.size(); ++n) {
     const Vec3i& corner = leaves.corners[n];
-    auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), openvdb::Coord(corner.x, corner.y, corner.z), background);
+    auto leaf =
+        std::make_unique<Leaf>(openvdb::PartialCreate(), openvdb::Coord(corner.x, corner.y, corner.z), background);
     typename Leaf::NodeMaskType active;
     for (int word = 0; word < brickSide; ++word) active.template getWord<std::uint64_t>(word) = leaves.masks[n][word];
     leaf->setValueMask(active);

@@ -39,12 +39,9 @@ struct TreeOrder {
 
   explicit TreeOrder(const std::vector<Vec3i>& corners) : bricks(corners.size()) {
     for (std::size_t n = 0; n < bricks.size(); ++n) bricks[n] = static_cast<std::uint32_t>(n);
-    std::sort(bricks.begin(), bricks.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return treePlace(corners[a]) < treePlace(corners[b]);
-    });
-    const auto columnOf = [&](std::uint32_t n) {
-      return std::tuple(corners[n].x, corners[n].y, corners[n].z >> 7);
-    };
+    std::sort(bricks.begin(), bricks.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return treePlace(corners[a]) < treePlace(corners[b]); });
+    const auto columnOf = [&](std::uint32_t n) { return std::tuple(corners[n].x, corners[n].y, corners[n].z >> 7); };
     for (std::size_t n = 0; n < bricks.size(); ++n) {
       if (n == 0 || columnOf(bricks[n]) != columnOf(bricks[n - 1])) columns.push_back({n, n});
       ++columns.back().last;
@@ -193,11 +190,12 @@ PackedLeaves packLeaves(const BrickSource<T>& source) {
     thread_local std::vector<char> room;
     room.resize(std::max(room.size(), (column.last - column.first) * largestLeaf<T>));
     char* end = room.data();
-    packed.content = visitColumn(source, order, column, [&](const Vec3i& corner, BrickValues<T>& leaf, const LeafMask& mask) {
-      packed.corners.push_back(corner);
-      packed.masks.push_back(mask);
-      end = putLeaf(end, leaf, mask);
-    });
+    packed.content =
+        visitColumn(source, order, column, [&](const Vec3i& corner, BrickValues<T>& leaf, const LeafMask& mask) {
+          packed.corners.push_back(corner);
+          packed.masks.push_back(mask);
+          end = putLeaf(end, leaf, mask);
+        });
     packed.bytes.assign(room.data(), end);
   });
   PackedLeaves leaves;

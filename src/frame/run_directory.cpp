@@ -1,5 +1,6 @@
 #include "frame/run_directory.h"
 
+#include <optional>
 #include <system_error>
 
 #include "base/check.h"
@@ -26,7 +27,7 @@ Found look(const fs::path& path) {
   if (fs::exists(path / manifestName, error)) return Found::run;
   for (const auto& entry : fs::directory_iterator(path, error)) {
     const std::string name = entry.path().filename().string();
-    if (name != ".lock" && !name.starts_with(".tmp.")) return Found::something;
+    if (name != ".lock" && name != ".turn" && !name.starts_with(".tmp.")) return Found::something;
   }
   if (error) throw Error(ExitCode::noRoom, fmt::format("{}: cannot be read: {}", path.string(), error.message()));
   return Found::nothing;
@@ -45,7 +46,7 @@ void refuseWrongPlace(const fs::path& path, RunDirectory::Mode mode) {
                     path.string()));
   if (mode == Mode::resume && found != Found::run)
     throw InputError(fmt::format("{}: holds no run to resume; leave out --resume to start one", path.string()));
-  if (mode == Mode::open && found != Found::run)
+  if ((mode == Mode::open || mode == Mode::share) && found != Found::run)
     throw InputError(fmt::format("{}: holds no run; name a directory that 'brisance run' or 'brisance simulate' made",
                                  path.string()));
 }
@@ -106,6 +107,18 @@ std::vector<FrameBody> reshapedIn(const Frame& frame) {
   return bodies;
 }
 
+/// True while it lives.
+class OnlyNow {
+ public:
+  explicit OnlyNow(bool& flag) : flag_(flag) { flag_ = true; }
+  ~OnlyNow() { flag_ = false; }
+  OnlyNow(const OnlyNow&) = delete;
+  OnlyNow& operator=(const OnlyNow&) = delete;
+
+ private:
+  bool& flag_;
+};
+
 bool hasRecordedSize(const fs::path& path, const ManifestEntry& entry) {
   std::error_code error;
   return fs::file_size(path, error) == entry.file.size && !error;
@@ -113,16 +126,34 @@ bool hasRecordedSize(const fs::path& path, const ManifestEntry& entry) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(const fs::path& path, Mode mode) : path_(path) {
+RunDirectory::RunDirectory(const fs::path& path, Mode mode) : path_(path), shared_(mode == Mode::share) {
   refuseWrongPlace(path_, mode);
   if (mode == Mode::create || mode == Mode::overwrite) makeDirectories(path_);
-  lock_ = std::make_unique<DirectoryLock>(path_);
+  takeLock();
   refuseWrongPlace(path_, mode);  // another process may have been first
-  removeAllTemporaries(path_);
   if (mode == Mode::create) writeManifest();
   if (mode == Mode::overwrite) replaceOldRun();
   if (mode == Mode::resume) continueOldRun();
-  if (mode == Mode::open) manifest_ = readManifest(path_);
+  if (mode == Mode::open || mode == Mode::share) manifest_ = readManifest(path_);
+}
+
+/// What killed processes left goes while nobody else can be at work. One after the other where several may come: the
+/// first has the lock alone for that moment.
+void RunDirectory::takeLock() {
+  using Kind = DirectoryLock::Kind;
+  std::optional<DirectoryTurn> turn;
+  if (shared_) turn.emplace(path_);
+  lock_ = std::make_unique<DirectoryLock>(path_, shared_ ? Kind::together : Kind::alone);
+  if (lock_->foundAlone()) removeAllTemporaries(path_);
+  lock_->letOthersIn();
+}
+
+void RunDirectory::inTurn(const std::function<void()>& work) {
+  if (!shared_ || turn_) return work();
+  const DirectoryTurn turn(path_);
+  const OnlyNow ours(turn_);
+  manifest_ = readManifest(path_);
+  work();
 }
 
 /// The empty manifest comes first: killed in between, the directory holds a new run and some files that it ignores.
@@ -157,7 +188,7 @@ fs::path RunDirectory::placeOf(const std::string& name) const {
 }
 
 void RunDirectory::add(const std::string& name, const std::string& bytes, const std::string& content) {
-  record({{name, {writeDurably(placeOf(name), bytes), content}}});
+  inTurn([&] { record({{name, {writeDurably(placeOf(name), bytes), content}}}); });
 }
 
 StagedFile RunDirectory::stage(const std::string& name, const std::function<void(std::ostream&)>& write) const {
@@ -172,33 +203,39 @@ void RunDirectory::add(StagedFile file) {
 }
 
 void RunDirectory::add(const std::vector<NewFile>& files) {
-  DurableBatch batch;
-  std::map<std::string, ManifestEntry> entries;
-  for (const NewFile& file : files) {
-    const auto write = [&](std::ostream& out) {
-      for (const std::string& piece : file.pieces) out << piece;
-    };
-    entries[file.name] = {batch.add(placeOf(file.name), write), file.content};
-  }
-  batch.finish();
-  record(entries);
+  inTurn([&] {
+    DurableBatch batch;
+    std::map<std::string, ManifestEntry> entries;
+    for (const NewFile& file : files) {
+      const auto write = [&](std::ostream& out) {
+        for (const std::string& piece : file.pieces) out << piece;
+      };
+      entries[file.name] = {batch.add(placeOf(file.name), write), file.content};
+    }
+    batch.finish();
+    record(entries);
+  });
 }
 
 void RunDirectory::record(const std::map<std::string, ManifestEntry>& entries) {
-  for (const auto& [name, entry] : entries) {
-    CHECK(isNameInRun(name), "{}", name);
-    manifest_[name] = entry;
-  }
-  writeManifest();
+  inTurn([&] {
+    for (const auto& [name, entry] : entries) {
+      CHECK(isNameInRun(name), "{}", name);
+      manifest_[name] = entry;
+    }
+    writeManifest();
+  });
 }
 
 void RunDirectory::remove(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    CHECK(isNameInRun(name), "{}", name);
-    manifest_.erase(name);
-  }
-  writeManifest();
-  deleteFiles(path_, names);
+  inTurn([&] {
+    for (const std::string& name : names) {
+      CHECK(isNameInRun(name), "{}", name);
+      manifest_.erase(name);
+    }
+    writeManifest();
+    deleteFiles(path_, names);
+  });
 }
 
 std::string RunDirectory::addInput(const fs::path& source) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -43,16 +44,20 @@ class RunDirectory {
     create,     ///< must not hold a run yet
     overwrite,  ///< an old run's files are removed first
     resume,     ///< continue an old run
-    open        ///< pictures, film: add files to a run
+    open,       ///< film: add files to a run
+    share       ///< pictures: add files to a run that other processes, on any machine, add theirs to meanwhile
   };
-  /// Takes the lock for writing modes (all). Throws InputError for a run that exists (create) or does not (resume,
-  /// open), with the option that would do it.
+  /// Takes the lock, in mode `share` together with others of that mode. Throws InputError for a run that exists
+  /// (create) or does not (resume, open, share), with the option that would do it; Error for one that others work in.
   RunDirectory(const std::filesystem::path& path, Mode mode);
 
   const std::filesystem::path& path() const { return path_; }
   const std::map<std::string, ManifestEntry>& manifest() const { return manifest_; }
 
-  /// Writes a file durably and then the manifest.
+  /// Reads the manifest anew, and works while no other process changes the run. In the modes that have the run to
+  /// themselves it only works.
+  void inTurn(const std::function<void()>& work);
+  /// Writes a file durably and then the manifest. These all work in their turn.
   void add(const std::string& name, const std::string& bytes, const std::string& content = "");
   /// The same in two parts, the second of which may wait for the disk.
   StagedFile stage(const std::string& name, const std::function<void(std::ostream&)>& write) const;
@@ -72,12 +77,14 @@ class RunDirectory {
   int lastFrame() const;
 
  private:
+  void takeLock();
   void writeManifest();
   void replaceOldRun();
   void continueOldRun();
   std::filesystem::path placeOf(const std::string& name) const;
   std::filesystem::path path_;
   std::unique_ptr<DirectoryLock> lock_;
+  bool shared_ = false, turn_ = false;  ///< with others; it is ours now
   std::map<std::string, ManifestEntry> manifest_;
 };
 

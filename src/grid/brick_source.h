@@ -31,12 +31,11 @@ template <class T, class Place, class FillRow>
 BrickSource<T> bricksOf(const Grid3<Place>& place, T background, FillRow fillRow) {
   BrickSource<T> source{place.size, place.origin, place.cellSize, background, cornersOfBricks(place.size), {}};
   source.read = [corners = source.corners, size = place.size, background, fillRow](std::size_t n,
-                                                                                  BrickValues<T>& values) {
+                                                                                   BrickValues<T>& values) {
     const Vec3i inside = size - corners[n];
     if (std::min({inside.x, inside.y, inside.z}) < brickSide) values.fill(background);
-    forRowsOf(corners[n], size, [&](int sample, int i, int j, int k, int count) {
-      fillRow(values.data() + sample, i, j, k, count);
-    });
+    forRowsOf(corners[n], size,
+              [&](int sample, int i, int j, int k, int count) { fillRow(values.data() + sample, i, j, k, count); });
   };
   return source;
 }

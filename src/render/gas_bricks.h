@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -46,16 +47,15 @@ struct GasBrick {
       for (int c = 0; c < 4; ++c) samples[n].values[c] = static_cast<float>(codes[4 * n + c]) * scale[c];
   }
 
-  /// Between the eight samples from number `first` on; shares 0 .. 1 along each axis. Two neighbours in x are read at
-  /// once.
+  /// Between the eight samples from number `first` on; shares 0 .. 1 along each axis. Two neighbours in x, near and far
+  /// in z, are one vector.
   [[gnu::always_inline]] GasSample between(int first, float x, float y, float z) const {
-    Pair near, nearUp, far, farUp;
-    read(first, near);
-    read(first + edge, nearUp);
-    read(first + edge * edge, far);
-    read(first + edge * edge + edge, farUp);
-    near += (nearUp - near) * y;
-    far += (farUp - far) * y;
+    Four low, up;
+    read(first, low);
+    read(first + edge, up);
+    low += (up - low) * y;
+    Pair near = __builtin_shufflevector(low, low, 0, 1, 2, 3, 4, 5, 6, 7);
+    const Pair far = __builtin_shufflevector(low, low, 8, 9, 10, 11, 12, 13, 14, 15);
     near += (far - near) * z;
     const GasSample::Vector left = __builtin_shufflevector(near, near, 0, 1, 2, 3),
                             right = __builtin_shufflevector(near, near, 4, 5, 6, 7);
@@ -66,10 +66,17 @@ struct GasBrick {
 
  private:
   using Pair [[gnu::vector_size(32)]] = float;
+  using Four [[gnu::vector_size(64)]] = float;
+  using Codes [[gnu::vector_size(16)]] = std::uint16_t;
+  using MoreCodes [[gnu::vector_size(32)]] = std::uint16_t;
 
   /// By reference, since without wide vectors no function may return one.
-  [[gnu::always_inline]] void read(int first, Pair& pair) const {
-    for (int n = 0; n < 8; ++n) pair[n] = codes[4 * first + n];
+  [[gnu::always_inline]] void read(int first, Four& four) const {
+    Codes near, far;
+    std::memcpy(&near, codes + 4 * first, sizeof near);
+    std::memcpy(&far, codes + 4 * (first + edge * edge), sizeof far);
+    const MoreCodes both = __builtin_shufflevector(near, far, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    four = __builtin_convertvector(both, Four);
   }
 };
 

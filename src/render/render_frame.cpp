@@ -3,49 +3,23 @@
 #include <optional>
 
 #include "render/denoise.h"
+#include "render/drawn_bits.h"
+#include "render/drawn_volume.h"
 #include "render/exposure.h"
-#include "render/gas_volume.h"
+#include "render/flow_arrows.h"
 #include "render/path_tracer.h"
+#include "render/piece_paint.h"
 #include "render/whitted.h"
 
 namespace brisance {
 namespace {
 
-/// The mass that the gas of the picture counts: fuel that does not burn is not seen, bits are no gas.
-float drawnMass(const FrameParticles& particles, std::size_t p, float fuelWeight) {
-  switch (static_cast<FrameKind>(particles.kind[p])) {
-    case FrameKind::burningFuel:
-      return particles.mass[p] * fuelWeight;
-    case FrameKind::soot:
-      return particles.mass[p];
-    default:
-      return 0;
-  }
-}
-
 /// The gas' own cells are not blurred: steps are as long as they.
-std::unique_ptr<GasMedium> gasOfCells(const FrameGas& gas, VolumeSettings settings, const BlackbodyColours& heat,
-                                      RenderScratch& scratch) {
-  if (!hasGas(gas)) return nullptr;
-  gasVolume(gas, settings, heat, scratch.volume);
-  settings.blur = 0;
-  return std::make_unique<GasMedium>(scratch.volume, settings, std::move(scratch.bricks));
-}
-
 std::unique_ptr<GasMedium> gasOf(const Frame& frame, const RenderSettings& settings, const BlackbodyColours& heat,
                                  RenderScratch& scratch) {
-  const VolumeSettings& volume = settings.volume;
-  const FrameParticles& particles = frame.particles;
-  const auto weigh = [&](std::size_t p) { return drawnMass(particles, p, static_cast<float>(volume.fuelWeight)); };
-  const auto seen = [&] {
-    for (std::size_t p = 0; p < particles.kind.size(); ++p)
-      if (weigh(p) > 0) return true;
-    return false;
-  };
-  if (volume.drawn && volume.source == VolumeSource::gas) return gasOfCells(frame.gas, volume, heat, scratch);
-  if (!volume.drawn || !seen()) return nullptr;
-  const ParticleVolumeSettings grid{volume.cells, volume.corner, volume.cellSize, volume.blur, volume.filterSize};
-  splatParticles(particles, grid, weigh, heat, scratch.volume, scratch.splat);
+  VolumeSettings volume = settings.volume;
+  if (!drawnVolume(frame, volume, heat, scratch.volume, scratch.splat)) return nullptr;
+  if (volume.source == VolumeSource::gas) volume.blur = 0;
   return std::make_unique<GasMedium>(scratch.volume, volume, std::move(scratch.bricks));
 }
 
@@ -71,10 +45,16 @@ struct Subject {
   double openTime;  ///< [s] simulated
   const CameraRays& rays;
   Noise noise;
+  const StopRequested& stopRequested;
 };
 
 Exposed exposed(const Subject& subject, const Follow& follow, Sampling sampling) {
-  return expose(subject.rays, subject.settings.width, subject.settings.height, follow, subject.noise, sampling);
+  const auto followUnlessStopped = [&](std::span<CameraRay> rays, std::span<Vec3f> light) {
+    if (subject.stopRequested && subject.stopRequested()) throw Interrupted();
+    follow(rays, light);
+  };
+  return expose(subject.rays, subject.settings.width, subject.settings.height, followUnlessStopped, subject.noise,
+                sampling);
 }
 
 Vec3f smokeAlbedo(const RenderSettings& settings) { return min(settings.volume.smokeColour, Vec3f(1, 1, 1)); }
@@ -90,7 +70,8 @@ Exposed drawn(const Subject& subject, const WhittedIntegrator&) {
       Sampling::even);
 }
 
-/// Fire is no light of the list here: its gas itself is drawn from.
+/// Fire is no light of the list here: its gas itself is drawn from. Where noise is to be taken out, the samples are
+/// those of the guides.
 Exposed drawn(const Subject& subject, const PathIntegrator& integrator) {
   const RenderSettings& settings = subject.settings;
   const std::vector<LightSource> lights = lightSources(settings.lights, nullptr);
@@ -110,7 +91,7 @@ Exposed drawn(const Subject& subject, const PathIntegrator& integrator) {
                         settings.maxDepth};
   return exposed(
       subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { pathRadiance(world, rays, light); },
-      integrator.adaptive ? Sampling::byNoise : Sampling::even);
+      integrator.adaptive && !settings.denoise ? Sampling::byNoise : Sampling::even);
 }
 
 void drawLayers(const Subject& subject, PictureLayers& layers, PictureGuides& guides) {
@@ -131,7 +112,7 @@ void drawLayers(const Subject& subject, PictureLayers& layers, PictureGuides& gu
 }  // namespace
 
 DrawnPicture drawPicture(const Frame& frame, const RenderSettings& settings, const RenderAssets& assets,
-                         const PictureTime& time, RenderScratch& scratch) {
+                         const PictureTime& time, RenderScratch& scratch, const StopRequested& stopRequested) {
   const MaterialTable materials(settings, assets.textures);
   const double openTime = settings.camera.shutter * time.frameDuration * time.simulatedPerFilm;
   const SceneGeometry geometry(frame.bodies, materials, openTime);
@@ -139,8 +120,9 @@ DrawnPicture drawPicture(const Frame& frame, const RenderSettings& settings, con
   const CameraRays rays(settings, time, frame.index);
   const bool wantsLayers = settings.writeExr && settings.layers, measures = wantsLayers || settings.denoise;
   const Subject subject{
-      frame,     settings, assets.environment, materials, geometry,
-      gas.get(), time,     openTime,           rays,      measures ? Noise::measured : Noise::ignored};
+      frame,        settings, assets.environment, materials, geometry,
+      gas.get(),    time,     openTime,           rays,      measures ? Noise::measured : Noise::ignored,
+      stopRequested};
   Exposed exposed = std::visit([&](const auto& integrator) { return drawn(subject, integrator); }, settings.integrator);
   DrawnPicture picture;
   if (measures) {
@@ -153,6 +135,15 @@ DrawnPicture drawPicture(const Frame& frame, const RenderSettings& settings, con
   picture.variance = std::move(exposed.variance);
   if (gas) scratch.bricks = GasMedium::memoryOf(std::move(*gas));
   return picture;
+}
+
+DrawnPicture drawFilmFrame(Frame frame, const RenderSettings& settings, const RenderAssets& assets,
+                           const PictureTime& time, RenderScratch& scratch, const StopRequested& stopRequested) {
+  RenderSettings look = settings;
+  if (settings.flow.drawn) addFlow(frame.gas, settings.flow, frame.bodies, look.materials);
+  paintPieces(frame.bodies, look.materials, assets.heat);
+  addBits(frame, settings.bits, assets.heat, frame.bodies, look.materials);
+  return drawPicture(frame, look, assets, time, scratch, stopRequested);
 }
 
 Image renderFrame(const Frame& frame, const RenderSettings& settings) {

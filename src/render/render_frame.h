@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/progress.h"
 #include "frame/frame.h"
 #include "render/blackbody.h"
 #include "render/camera_rays.h"
@@ -39,9 +40,13 @@ struct DrawnPicture {
 };
 
 /// Draws a frame: the same bits for any number of threads. Throws InputError naming the body and the material when the
-/// settings do not know a body's material. `assets` were made from the same settings.
+/// settings do not know a body's material; Interrupted when it is asked to stop, which any thread may do. `assets` were
+/// made from the same settings.
 DrawnPicture drawPicture(const Frame& frame, const RenderSettings& settings, const RenderAssets& assets,
-                         const PictureTime& time, RenderScratch& scratch);
+                         const PictureTime& time, RenderScratch& scratch, const StopRequested& stopRequested = {});
+/// Likewise a frame of a film, its pieces painted and its flow shown as the settings ask for.
+DrawnPicture drawFilmFrame(Frame frame, const RenderSettings& settings, const RenderAssets& assets,
+                           const PictureTime& time, RenderScratch& scratch, const StopRequested& stopRequested = {});
 /// The light of one frame alone, camera at film time `frame.time`.
 Image renderFrame(const Frame& frame, const RenderSettings& settings);
 

@@ -3,11 +3,8 @@
 #include <chrono>
 
 #include "base/check.h"
-#include "render/drawn_bits.h"
-#include "render/flow_arrows.h"
 #include "render/layer_file.h"
 #include "render/picture_file.h"
-#include "render/piece_paint.h"
 
 namespace brisance {
 namespace {
@@ -32,15 +29,18 @@ std::string pictureFile(int index, const std::string& extension) {
   return frameFile("images", "frame", index, extension);
 }
 
-bool holds(const RunDirectory& run, const std::string& name) {
-  const auto entry = run.manifest().find(name);
+bool holds(const std::filesystem::path& run, const std::map<std::string, ManifestEntry>& manifest,
+           const std::string& name) {
+  const auto entry = manifest.find(name);
   std::error_code trouble;
-  return entry != run.manifest().end() &&
-         std::filesystem::file_size(run.path() / name, trouble) == entry->second.file.size && !trouble;
+  return entry != manifest.end() && std::filesystem::file_size(run / name, trouble) == entry->second.file.size &&
+         !trouble;
 }
 
-bool isDrawn(const RunDirectory& run, int index, bool wantsExr) {
-  return holds(run, pictureFile(index, "png")) && (!wantsExr || holds(run, pictureFile(index, "exr")));
+/// Another process may have drawn it by now.
+bool isDrawnByNow(RunDirectory& run, int frame, const RenderSettings& settings) {
+  run.inTurn([] {});
+  return hasPicture(run.path(), run.manifest(), frame, settings);
 }
 
 void addPictures(RunDirectory& run, int index, const DrawnPicture& drawn, const RenderSettings& settings) {
@@ -50,6 +50,12 @@ void addPictures(RunDirectory& run, int index, const DrawnPicture& drawn, const 
 }
 
 }  // namespace
+
+bool hasPicture(const std::filesystem::path& run, const std::map<std::string, ManifestEntry>& manifest, int frame,
+                const RenderSettings& settings) {
+  return holds(run, manifest, pictureFile(frame, "png")) &&
+         (!settings.writeExr || holds(run, manifest, pictureFile(frame, "exr")));
+}
 
 RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const RenderRunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
@@ -65,16 +71,12 @@ RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const
       break;
     }
     const int index = range.first + n * range.step;
-    if (options.skipExisting && isDrawn(run, index, settings.writeExr)) {
+    if (options.skipExisting && isDrawnByNow(run, index, settings)) {
       ++summary.skipped;
     } else {
-      Frame frame = readFrame(run.path(), index, readsGas);
-      RenderSettings look = settings;
-      if (settings.flow.drawn) addFlow(frame.gas, settings.flow, frame.bodies, look.materials);
-      paintPieces(frame.bodies, look.materials, assets.heat);
-      addBits(frame, settings.bits, assets.heat, frame.bodies, look.materials);
       const PictureTime time{options.startTime + (index - 1) / options.fps, 1 / options.fps, options.timeScale};
-      addPictures(run, index, drawPicture(frame, look, assets, time, scratch), settings);
+      Frame frame = readFrame(run.path(), index, readsGas);
+      addPictures(run, index, drawFilmFrame(std::move(frame), settings, assets, time, scratch), settings);
       ++summary.rendered;
     }
     if (options.progress) options.progress("render", n + 1, range.count());

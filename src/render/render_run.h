@@ -27,6 +27,10 @@ struct RenderSummary {
   double seconds = 0;
 };
 
+/// Whether the pictures of a frame are there: the manifest names them, and the disk has them in that size.
+bool hasPicture(const std::filesystem::path& run, const std::map<std::string, ManifestEntry>& manifest, int frame,
+                const RenderSettings& settings);
+
 /// Reads frames one by one and adds their pictures. Ends early, between two frames, when a stop is requested.
 /// Throws InputError when the range holds no frame or a frame that the run does not have.
 RenderSummary renderRun(RunDirectory& run, const RenderSettings& settings, const RenderRunOptions& options);

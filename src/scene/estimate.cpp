@@ -20,15 +20,15 @@ constexpr double solidMemory = 4 * field + 1;   // open shares, regions, what is
 constexpr double pressureMemory = 2 * field;    // the solver's field and its work
 constexpr double sweepMemory = 6 * field;       // where a donor-cell step puts the new fields
 constexpr double separateMemory = 12 * field;   // padded and new velocity and scalar, and a velocity of the whirls'
+constexpr double pathMemory = 3 * field;        // whence semi_lagrangian's gas came
 constexpr double multigridMemory = 13 * field;  // six vectors and seven entries of a row, an eighth more in all levels
 constexpr double gradientMemory = 8 * field;    // four vectors in double precision
 constexpr double movingMemory = 20 * field;     // where moving bodies block gas: what faces and cells are, twice
 constexpr double depositMemory = field + 1;     // among solids: what is inside, and the share of a kernel in gas
-constexpr double writingMemory =
-    16 * field;                          // the frame, its packed file and the checkpoint, less what solvers gave back
-constexpr double volumeCellMemory = 32;  // density and colour, and their copy while blurring
+constexpr double writingMemory = 12 * field;    // the frame's packed file and the transforms' room
+constexpr double volumeCellMemory = 32;         // density and colour, and their copy while blurring
 constexpr double particleMemory =
-    445;  // fields 83, to sort 83 and to save 83, deposits 70, the frame and its file 66, and what these leave free
+    335;  // fields 83, to sort 83, deposits 70, the frame and its file 66, and what these leave free
 constexpr double pixelMemory = 32;         // colour and weights in single precision, and the encoded picture
 constexpr double baseMemory = 45e6;        // the program and its libraries
 constexpr double pieceBytes = 20e3;        // a shard's mesh of some hundred triangles, on disk and in memory
@@ -49,6 +49,7 @@ double gigabytes(std::int64_t bytes) { return static_cast<double>(bytes) / 1e9; 
 double gasCellMemory(const SimulationSettings& s) {
   double bytes = stateMemory + solidMemory + writingMemory;
   bytes += sweepsSuffice(s.fluid, s.fluid.courant) ? sweepMemory : separateMemory;
+  if (std::holds_alternative<SemiLagrangian>(s.fluid.advection)) bytes += pathMemory;
   if (std::holds_alternative<MultigridSolver>(s.fluid.pressure)) bytes += multigridMemory;
   bytes += std::holds_alternative<ConjugateGradient>(s.fluid.pressure) ? gradientMemory : pressureMemory;
   if (s.bodiesInGas == BodiesInGas::block) bytes += movingMemory;

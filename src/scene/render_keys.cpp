@@ -126,7 +126,8 @@ struct IntegratorKeys {
         {"splits", "", between(0, 8), "mirrors and glass surfaces from the camera on at which both ways are followed"},
         path.splits);
     visit(v,
-          {"adaptive", "", anyValue, "more samples where light is noisier, in the mean as many; from samples = 3 on"},
+          {"adaptive", "", anyValue,
+           "more samples where light is noisier, in the mean as many; from samples = 3 on, not with denoise"},
           path.adaptive);
   }
 };

@@ -28,7 +28,7 @@ class Pipe {
  public:
   Pipe() {
     if (pipe2(ends_, O_CLOEXEC) != 0)
-      throw Error(ExitCode::failed, fmt::format("film: cannot make a pipe: {}", std::strerror(errno)));
+      throw Error(ExitCode::failed, fmt::format("cannot make a pipe: {}", std::strerror(errno)));
   }
   ~Pipe() { close(0), close(1); }
   Pipe(const Pipe&) = delete;
@@ -81,8 +81,7 @@ Finished spawn(std::vector<std::string> arguments) {
   pointers.push_back(nullptr);
   Pipe output;
   const int errors = memfd_create("errors", MFD_CLOEXEC);
-  if (errors < 0)
-    throw Error(ExitCode::failed, fmt::format("film: cannot start {}: {}", arguments[0], std::strerror(errno)));
+  if (errors < 0) throw Error(ExitCode::failed, fmt::format("cannot start {}: {}", arguments[0], std::strerror(errno)));
   const pid_t child = fork();
   if (child == 0) becomeProgram(pointers.data(), output.end(1), errors);
   output.close(1);
@@ -104,15 +103,17 @@ std::string lastLine(std::string text) {
 
 }  // namespace
 
-std::string runProgram(const std::vector<std::string>& arguments) {
+std::string runProgram(const std::vector<std::string>& arguments, const Errand& errand) {
   const Finished finished = spawn(arguments);
+  const std::string& program = arguments[0];
   if (finished.status == missingTool)
-    throw Error(ExitCode::failed,
-                fmt::format("film: there is no program {}; install ffmpeg (apt-get install ffmpeg)", arguments[0]));
+    throw Error(ExitCode::failed, fmt::format("{}: there is no program {}; install {} (apt-get install {})",
+                                              errand.name, program, errand.package, errand.package));
   if (finished.errors.find(std::strerror(ENOSPC)) != std::string::npos)
-    throw Error(ExitCode::noRoom, fmt::format("film: {}: the disk is full; make room and encode again", arguments[0]));
+    throw Error(ExitCode::noRoom,
+                fmt::format("{}: {}: the disk is full; make room and try again", errand.name, program));
   if (finished.status != 0)
-    throw Error(ExitCode::failed, fmt::format("film: {} failed with code {}: {}", arguments[0], finished.status,
+    throw Error(ExitCode::failed, fmt::format("{}: {} failed with code {}: {}", errand.name, program, finished.status,
                                               lastLine(finished.errors)));
   return finished.output;
 }

@@ -232,7 +232,7 @@ void collectInputs(Scene& scene) {
     if (std::find(scene.inputs.begin(), scene.inputs.end(), file) == scene.inputs.end()) scene.inputs.push_back(file);
   };
   for (const BodySettings& body : scene.simulation.bodies)
-    if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) add(mesh->file);
+    if (const auto* mesh = std::get_if<MeshShape>(&body.shape); mesh && !mesh->given) add(mesh->file);
   for (const auto& [name, material] : scene.render.materials)
     if (const auto* image = std::get_if<ImageTexture>(&material.diffuse)) add(image->file);
   if (scene.render.environment.file) add(*scene.render.environment.file);

@@ -5,8 +5,7 @@
 #include "base/check.h"
 #include "base/durable_file.h"
 #include "scene/estimate.h"
-#include "scene/scene_draft.h"
-#include "scene/scene_reader.h"
+#include "scene/scene_tree.h"
 
 namespace brisance {
 namespace {
@@ -18,6 +17,10 @@ std::string readSceneText(const std::filesystem::path& file) {
   return readFile(file);
 }
 
+SceneTree treeOf(const std::string& text, const std::filesystem::path& file) {
+  return {parseToml(text, file.string()), std::filesystem::absolute(file).parent_path(), {}};
+}
+
 std::filesystem::path movedPath(const std::map<std::filesystem::path, std::filesystem::path>& places,
                                 const std::filesystem::path& file) {
   const auto found = places.find(file);
@@ -26,19 +29,23 @@ std::filesystem::path movedPath(const std::map<std::filesystem::path, std::files
 
 }  // namespace
 
-Scene parseScene(const std::string& text, const std::filesystem::path& file,
-                 const std::vector<std::string>& overrides) {
-  SceneNode root = parseToml(text, file.string());
-  for (const std::string& assignment : overrides) applyOverride(root, assignment);
-  const std::filesystem::path directory = std::filesystem::absolute(file).parent_path();
-  const SceneDraft draft = readDraft(root, directory);  // first: it bounds what the rest has to walk
-  Scene scene = resolve(draft, placesOf(root));
-  requireMemory(scene, file.string());
+SceneTree readSceneTree(const std::filesystem::path& file) { return treeOf(readSceneText(file), file); }
+
+Scene sceneOf(SceneTree tree, const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) applyOverride(tree.root, assignment);
+  const SceneDraft draft = readDraft(tree.root, tree.directory, tree.meshes);  // first: it bounds what is walked next
+  Scene scene = resolve(draft, placesOf(tree.root));
+  requireMemory(scene, tree.root.place);
   return scene;
 }
 
+Scene parseScene(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<std::string>& overrides) {
+  return sceneOf(treeOf(text, file), overrides);
+}
+
 Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return parseScene(readSceneText(file), file, overrides);
+  return sceneOf(readSceneTree(file), overrides);
 }
 
 std::string writeScene(const Scene& scene) { return writeToml(writeDraft(draftOf(scene))); }

@@ -50,8 +50,8 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
 
 class Reader : public KeyVisitor {
  public:
-  Reader(const SceneNode& root, std::filesystem::path directory, double metresPerUnit)
-      : directory_(std::move(directory)), metresPerUnit_(metresPerUnit) {
+  Reader(const SceneNode& root, std::filesystem::path directory, const GivenMeshes& given, double metresPerUnit)
+      : directory_(std::move(directory)), given_(given), metresPerUnit_(metresPerUnit) {
     levels_.push_back({&root, "", {}, root.place});
   }
 
@@ -85,6 +85,10 @@ class Reader : public KeyVisitor {
   void file(const Key& key, std::filesystem::path& value) override {
     const SceneNode* node = take(key);
     if (node == nullptr) return;
+    if (node->kind == Kind::text && given_.contains(node->text)) {
+      value = node->text;
+      return;
+    }
     value = (directory_ / textOf(key, *node)).lexically_normal();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(value, ignored))
@@ -221,20 +225,28 @@ class Reader : public KeyVisitor {
   const SceneNode nothing_{};
   std::vector<Level> levels_;
   std::filesystem::path directory_;
+  const GivenMeshes& given_;
   double metresPerUnit_;
 };
 
+void putMeshes(const GivenMeshes& given, SceneDraft& draft) {
+  for (BodyKeys& keys : draft.bodies)
+    if (auto* mesh = std::get_if<MeshShape>(&keys.body.shape))
+      if (const auto found = given.find(mesh->file); found != given.end()) mesh->given = found->second;
+}
+
 }  // namespace
 
-SceneDraft readDraft(const SceneNode& root, const std::filesystem::path& directory) {
+SceneDraft readDraft(const SceneNode& root, const std::filesystem::path& directory, const GivenMeshes& given) {
   SceneDraft first;  // the unit of length and the quality decide how the rest is read
-  Reader general(root, directory, 1);
+  Reader general(root, directory, given, 1);
   visitTable(general, "scene", "", first, describeGeneral);
   SceneDraft draft;
   applyQuality(draft, first.quality);
-  Reader reader(root, directory, first.metresPerUnit);
+  Reader reader(root, directory, given, first.metresPerUnit);
   describeScene(reader, draft);
   reader.refuseUnknownKeys();
+  putMeshes(given, draft);
   return draft;
 }
 

@@ -20,7 +20,7 @@ FracturedBody breakShape(const RectangleShape& r, const FractureSettings& fractu
   return fractureMesh(rectangleMesh(r.width, r.height, r.uvRepeat), fracture, surfaceThickness);
 }
 FracturedBody breakShape(const MeshShape& shape, const FractureSettings& fracture, std::uint64_t) {
-  TriangleMesh mesh = readMesh(shape.file);
+  TriangleMesh mesh = shape.given ? *shape.given : readMesh(shape.file);
   if (fracture.solid.enabled) {
     RepairedMesh repaired = repair(mesh);
     requireSolid(repaired, shape.file);

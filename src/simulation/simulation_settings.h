@@ -28,6 +28,7 @@ struct RectangleShape {
 };
 struct MeshShape {
   std::filesystem::path file;
+  std::shared_ptr<const TriangleMesh> given;  ///< instead of the file, which then is but its name
   double scale = 1;
   double shellThickness = 0.01;  ///< [m] for the mass of open pieces
 };

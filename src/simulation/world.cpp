@@ -104,6 +104,13 @@ void refuseBrokenState(const WorldState& world, const SimulationSettings& settin
                             world.frame + 1, world.time, world.report.substeps));
 }
 
+void beginFrame(WorldState& world, const SimulationSettings& settings) {
+  world.report = {};
+  world.time = settings.frameTime * (world.frame - 1);
+  world.inFrame = true;
+  timed(world.report, "particles", [&] { sortByRow(world.particles, world.gas.burnRate, world.order); });
+}
+
 void addToTotals(const StepReport& report, RunTotals& totals) {
   totals.volume += report.volume;
   totals.heat += report.heat;
@@ -133,14 +140,12 @@ World::World(SimulationSettings settings) : settings_(std::move(settings)), stat
 World::~World() = default;
 World::World(World&&) noexcept = default;
 
-void World::advance() {
+bool World::advance(const StopRequested& stopRequested) {
   WorldState& world = *state_;
-  world.report = {};
-  const double start = settings_.frameTime * (world.frame - 1), end = settings_.frameTime * world.frame;
-  world.time = start;
-  timed(world.report, "particles", [&] { sortByRow(world.particles, world.gas.burnRate, world.order); });
-  const double sliver = 1e-9 * settings_.frameTime;
+  if (!world.inFrame) beginFrame(world, settings_);
+  const double end = settings_.frameTime * world.frame, sliver = 1e-9 * settings_.frameTime;
   while (world.time < end - sliver) {
+    if (stopRequested && stopRequested()) return false;
     const double longest =
         longestStep(world.gas, settings_.fluid, expectedSource(world, settings_), limitsOfGas(world));
     const double left = end - world.time;
@@ -148,8 +153,10 @@ void World::advance() {
     refuseBrokenState(world, settings_);
   }
   world.time = end;
+  world.inFrame = false;
   ++world.frame;
   addToTotals(world.report, world.totals);
+  return true;
 }
 
 Frame World::capture() const { return captureFrame(*state_, settings_); }
@@ -159,9 +166,13 @@ Frame World::captureWithoutGas() const { return brisance::captureWithoutGas(*sta
 GasSource World::gas() const { return gasOf(*state_, settings_); }
 int World::frameIndex() const { return state_->frame; }
 const RunTotals& World::totals() const { return state_->totals; }
-void World::checkpoint(std::ostream& out) const { writeCheckpoint(*state_, out); }
+void World::checkpoint(std::ostream& out) const {
+  CHECK(!state_->inFrame, "frame {}", state_->frame);
+  writeCheckpoint(*state_, out);
+}
 void World::restore(const std::string& bytes, const std::string& fileName) {
   readCheckpoint(bytes, fileName, *state_);
+  state_->inFrame = false;
   for (std::size_t b = 0; b < state_->shapes.size(); ++b)
     if (state_->looks[b].shapeFrame > 0) state_->shapes[b] = movingShape(*state_->bodies.mesh[b]);
   state_->limits.reset();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "frame/frame.h"
 #include "frame/gas_file.h"
 #include "simulation/simulation_settings.h"
@@ -24,8 +25,9 @@ class World {
   ~World();
   World(World&&) noexcept;
 
-  /// One frame of film: sub-steps of the strictest limit. Throws Error(unstable) when a value leaves its range.
-  void advance();
+  /// One frame of film: sub-steps of the strictest limit. Throws Error(unstable) when a value leaves its range. False
+  /// when it was asked to stop between two sub-steps: the next call then goes on from there, to the same bits.
+  bool advance(const StopRequested& stopRequested = {});
   /// The moment now; frame 1 is the start.
   Frame capture() const;
   /// The same in two parts, for those who write it: the gas is made while it is read, and no world may advance meanwhile.
@@ -33,8 +35,11 @@ class World {
   GasSource gas() const;
   int frameIndex() const;
   const RunTotals& totals() const;
+  /// For those who read its arrays in place.
+  WorldState& state() { return *state_; }
+  const SimulationSettings& settings() const { return settings_; }
 
-  /// Everything that `advance` depends on, as bytes; settings are not in it.
+  /// Everything that `advance` depends on, as bytes; settings are not in it. Not in the middle of a frame.
   void checkpoint(std::ostream& out) const;
   /// Throws DamagedFile when the bytes are no checkpoint of these settings.
   void restore(const std::string& bytes, const std::string& fileName);

@@ -35,6 +35,7 @@ struct RunTotals {
 
 struct WorldState {
   int frame = 1;
+  bool inFrame = false;       ///< the next frame was begun and has not come to its end
   double time = 0;            ///< [s]
   double largestSource = 0;   ///< phi [1/s] of the last sub-step
   std::uint64_t burning = 0;  ///< particles in that sub-step

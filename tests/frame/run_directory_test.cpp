@@ -129,6 +129,43 @@ TEST(RunDirectory, EqualFramesHaveEqualContentsAndFiles) {
   EXPECT_NE(a.at("bodies/bodies.0001.json").content, a.at("bodies/bodies.0002.json").content);
 }
 
+TEST(RunDirectory, SeveralMayAddToItAtOnceAndLoseNothing) {
+  const ScratchDirectory scratch;
+  makeRun(scratch / "run");
+  RunDirectory a(scratch / "run", Mode::share), b(scratch / "run", Mode::share);
+  std::ofstream(scratch / "run/.tmp.1.frame.0001.png") << "b is writing";
+  a.add("images/frame.0001.png", "one");
+  b.add("images/frame.0002.png", "two");
+  a.add("images/frame.0003.png", "three");
+  b.inTurn([&] {
+    EXPECT_TRUE(b.manifest().contains("images/frame.0003.png"));
+    b.add("run.json", "{}");  // in the same turn
+  });
+  const RunDirectory c(scratch / "run", Mode::share);
+  EXPECT_TRUE(fs::exists(scratch / "run/.tmp.1.frame.0001.png"));
+  EXPECT_EQ(c.manifest().size(), 13u + 4u);
+  EXPECT_TRUE(verifyRun(scratch / "run").empty());
+}
+
+TEST(RunDirectory, WhoSharesItAndWhoHasItAloneKeepEachOtherOut) {
+  const ScratchDirectory scratch;
+  makeRun(scratch / "run");
+  const auto refusal = [&](Mode mode) { return refusalOf<Error>([&] { RunDirectory run(scratch / "run", mode); }); };
+  {
+    const RunDirectory shared(scratch / "run", Mode::share);
+    for (const Mode mode : {Mode::open, Mode::resume, Mode::overwrite})
+      EXPECT_TRUE(contains(refusal(mode), "another process is working in this run"));
+    EXPECT_EQ(refusal(Mode::share), "");
+  }
+  {
+    const RunDirectory alone(scratch / "run", Mode::open);
+    EXPECT_TRUE(contains(refusal(Mode::share), "another process is working in this run"));
+  }
+  std::ofstream(scratch / "run/.tmp.1.left_by_a_killed_one") << "";
+  const RunDirectory first(scratch / "run", Mode::share);
+  EXPECT_FALSE(fs::exists(scratch / "run/.tmp.1.left_by_a_killed_one"));
+}
+
 TEST(RunDirectory, CreateRefusesARunAndNamesBothWaysOut) {
   const ScratchDirectory scratch;
   makeRun(scratch / "run");

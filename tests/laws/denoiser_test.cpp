@@ -66,8 +66,9 @@ double flicker(const std::vector<Image>& images) {
   return std::sqrt(variance);
 }
 
-const std::vector<std::string> smallPaths{"render.width=200", "render.height=150", "render.integrator=path",
-                                          "render.write_exr=true", "render.layers=false"};
+const std::vector<std::string> smallPaths{
+    "render.width=200",      "render.height=150",  "render.integrator.type=path", "render.integrator.adaptive=false",
+    "render.write_exr=true", "render.layers=false"};
 constexpr int few = 4, many = 12, reference = 40;  // n of n x n
 
 void expectBetterThanMany(const std::string& scene, int frame) {

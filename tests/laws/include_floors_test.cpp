@@ -21,9 +21,9 @@ struct Include {
 };
 
 const std::map<std::string, int>& floorOf() {
-  static const std::map<std::string, int> table{{"base", 0},       {"grid", 1},   {"mesh", 1},     {"fluid", 2},
-                                                {"particles", 2},  {"rigid", 2},  {"fracture", 2}, {"frame", 2},
-                                                {"simulation", 3}, {"render", 3}, {"scene", 4},    {"apps", 5}};
+  static const std::map<std::string, int> table{
+      {"base", 0},  {"grid", 1},       {"mesh", 1},   {"fluid", 2}, {"particles", 2}, {"rigid", 2}, {"fracture", 2},
+      {"frame", 2}, {"simulation", 3}, {"render", 3}, {"scene", 4}, {"view", 4},      {"apps", 5}};
   return table;
 }
 

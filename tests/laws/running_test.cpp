@@ -96,6 +96,8 @@ TEST(RunDirectories, AFilmIsMadeStageByStageAsInOneGo) {
   ASSERT_EQ(runProgram({"simulate", l.scene, "-o", l.run, "--frames", "1-4", "--quiet"}).exitCode, 0);
   ASSERT_EQ(runProgram({"render", l.run, "--frames", "3-4", "--quiet"}).exitCode, 0);
   ASSERT_EQ(runProgram({"render", l.run, "--skip-existing", "--quiet"}).exitCode, 0);
+  ASSERT_EQ(runProgram({"render", l.run, "--overwrite", "--frames", "4", "--quiet"}).exitCode, 0);
+  EXPECT_EQ(runProgram({"render", l.run, "--overwrite", "--skip-existing", "--quiet"}).exitCode, 2);
   ASSERT_EQ(runProgram({"encode", l.run, "--quiet"}).exitCode, 0);
   const Outcome whole = runProgram({"run", l.scene, "-o", inOneGo, "--frames", "1-4", "--quiet"});
   ASSERT_EQ(whole.exitCode, 0) << whole.err;

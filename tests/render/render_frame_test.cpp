@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "base/check.h"
 #include "base/durable_file.h"
 #include "base/parallel.h"
@@ -68,6 +70,19 @@ TEST(RenderFrame, OneThreadAndFourMakeTheSamePixels) {
   const Image one = drawn(1);
   EXPECT_GT(mean(one), 0.01);
   EXPECT_EQ(contentHash(one), contentHash(drawn(4)));
+}
+
+TEST(RenderFrame, EndsEarlyWhenAskedTo) {
+  const auto [frame, settings] = smallExplosion();
+  for (const Integrator& integrator : {Integrator(WhittedIntegrator{}), Integrator(PathIntegrator{})}) {
+    RenderSettings look = settings;
+    look.integrator = integrator;
+    std::atomic<int> asked = 0;
+    RenderScratch scratch;
+    const StopRequested atTheTenth = [&] { return ++asked >= 10; };
+    EXPECT_THROW(drawFilmFrame(frame, look, RenderAssets(look), {}, scratch, atTheTenth), Interrupted);
+    EXPECT_LT(asked, look.width * look.height / 2);
+  }
 }
 
 TEST(RenderFrame, PathsAreTheSameForOneThreadAndFour) {

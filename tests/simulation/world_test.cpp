@@ -148,6 +148,27 @@ TEST(World, GasStaysBehindAPaneThatBlocksItUntilThePaneGoes) {
   EXPECT_LT(before, 1e-6 * behind);
 }
 
+TEST(World, StoppedBetweenSubStepsItGoesOnAsIfNeverStopped) {
+  for (SimulationSettings settings : {blockingScene(), landingBalloon()}) {
+    settings.fluid.courant = .2;  // several sub-steps a frame
+    World undisturbed(settings), stopped(settings);
+    int stops = 0;
+    for (int frame = 2; frame <= 5; ++frame) {
+      undisturbed.advance();
+      int asked = 0;
+      while (!stopped.advance([&] { return ++asked % 3 == 0; })) {
+        ++stops;
+        EXPECT_EQ(stopped.frameIndex(), frame - 1);
+        EXPECT_THROW(checkpointOf(stopped), std::logic_error);
+      }
+      EXPECT_EQ(stopped.frameIndex(), frame);
+    }
+    EXPECT_GT(stops, 4);
+    expectSame(stopped.capture(), undisturbed.capture());
+    EXPECT_EQ(checkpointOf(stopped), checkpointOf(undisturbed));
+  }
+}
+
 TEST(World, RestoredFromACheckpointItGoesOnAsIfNeverStopped) {
   for (const SimulationSettings& settings :
        {smallScene(), blockingScene(), swellingScene(), landingScene(), landingBalloon(), dustyScene()}) {
