@@ -15,12 +15,10 @@ int code(ExitCode exitCode) { return static_cast<int>(exitCode); }
 
 int call(const Options& options) {
   static const std::map<std::string, int (*)(const Options&)> commands{
-      {"run", runCommand},           {"simulate", simulateCommand},
-      {"render", renderCommand},     {"encode", encodeCommand},
-      {"check", checkCommand},       {"info", infoCommand},
-      {"verify", verifyCommand},     {"reference", referenceCommand},
-      {"fracture", fractureCommand}, {"export", exportCommand},
-      {"view", viewCommand},         {"farm", farmCommand}};
+      {"run", runCommand},       {"simulate", simulateCommand},   {"render", renderCommand},
+      {"encode", encodeCommand}, {"check", checkCommand},         {"info", infoCommand},
+      {"verify", verifyCommand}, {"reference", referenceCommand}, {"fracture", fractureCommand},
+      {"export", exportCommand}, {"view", viewCommand},           {"farm", farmCommand}};
   const ThreadLimit limit(options.threads);
   return commands.at(options.command)(options);
 }

@@ -14,13 +14,7 @@ using FramePointer = std::shared_ptr<const Frame>;
 /// The bricks of a sparse grid as one array; the background where there is none.
 template <class T>
 py::array denseOf(const SparseGrid<T>& sparse) {
-  Grid3<T> dense(sparse.size, sparse.origin, sparse.cellSize, sparse.background);
-  for (const auto& brick : sparse.bricks)
-    detail::forSamplesOf(brick.corner, sparse.size, [&](int sample, int i, int j, int k) {
-      dense(i, j, k) = brick.values[sample];
-      return true;
-    });
-  auto owner = std::make_shared<Grid3<T>>(std::move(dense));
+  auto owner = std::make_shared<Grid3<T>>(makeDense(sparse));
   if constexpr (std::is_same_v<T, float>) {
     return viewOf(*owner, owner);
   } else {

@@ -1,6 +1,7 @@
 // A grid that is mostly one value: only bricks of 8x8x8 that differ from it are stored.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -47,6 +48,17 @@ void forSamplesOf(const Vec3i& corner, const Vec3i& size, const Visit& visit) {
   forRowsOf(corner, size, [&](int sample, int i, int j, int k, int count) {
     for (int n = 0; n < count; ++n) visit(sample + n, i + n, j, k);
   });
+}
+
+/// The background where there is no brick.
+template <class T>
+Grid3<T> makeDense(const SparseGrid<T>& sparse) {
+  Grid3<T> dense(sparse.size, sparse.origin, sparse.cellSize, sparse.background);
+  for (const auto& brick : sparse.bricks)
+    forRowsOf(brick.corner, sparse.size, [&](int sample, int i, int j, int k, int count) {
+      std::copy_n(&brick.values[sample], count, &dense(i, j, k));
+    });
+  return dense;
 }
 
 }  // namespace brisance

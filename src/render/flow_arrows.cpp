@@ -8,15 +8,6 @@
 namespace brisance {
 namespace {
 
-Grid3<Vec3f> dense(const SparseGrid<Vec3f>& sparse) {
-  Grid3<Vec3f> grid(sparse.size, sparse.origin, sparse.cellSize, sparse.background);
-  for (const auto& brick : sparse.bricks)
-    forRowsOf(brick.corner, sparse.size, [&](int sample, int i, int j, int k, int count) {
-      std::copy_n(&brick.values[sample], count, &grid(i, j, k));
-    });
-  return grid;
-}
-
 /// Some unit vector across a unit vector.
 Vec3d across(const Vec3d& along) {
   const Vec3d other = std::abs(along.y) < 0.9 ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0);
@@ -59,7 +50,7 @@ float fastest(const SparseGrid<Vec3f>& velocity) {
 
 TriangleMesh flowArrows(const FrameGas& gas, const FlowSettings& settings) {
   TriangleMesh mesh;
-  const Grid3<Vec3f> velocity = dense(gas.velocity);
+  const Grid3<Vec3f> velocity = makeDense(gas.velocity);
   const double slow = 0.01 * fastest(gas.velocity);
   const Vec3d size = settings.upper - settings.lower;
   Vec3i counts;

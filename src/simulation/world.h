@@ -30,7 +30,8 @@ class World {
   bool advance(const StopRequested& stopRequested = {});
   /// The moment now; frame 1 is the start.
   Frame capture() const;
-  /// The same in two parts, for those who write it: the gas is made while it is read, and no world may advance meanwhile.
+  /// The same in two parts, for those who write it: the gas is made while it is read, and no world may advance
+  /// meanwhile.
   Frame captureWithoutGas() const;
   GasSource gas() const;
   int frameIndex() const;
