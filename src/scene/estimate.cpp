@@ -26,7 +26,9 @@ constexpr double gradientMemory = 8 * field;    // four vectors in double precis
 constexpr double movingMemory = 20 * field;     // where moving bodies block gas: what faces and cells are, twice
 constexpr double depositMemory = field + 1;     // among solids: what is inside, and the share of a kernel in gas
 constexpr double writingMemory = 12 * field;    // the frame's packed file and the transforms' room
-constexpr double volumeCellMemory = 32;         // density and colour, and their copy while blurring
+constexpr double largeField = 32 << 20;         // [bytes] from here on what is freed goes back at once
+constexpr double givenBackMemory = 6 * field;
+constexpr double volumeCellMemory = 32;  // density and colour, and their copy while blurring
 constexpr double particleMemory =
     335;  // fields 83, to sort 83, deposits 70, the frame and its file 66, and what these leave free
 constexpr double pixelMemory = 32;         // colour and weights in single precision, and the encoded picture
@@ -48,6 +50,7 @@ double gigabytes(std::int64_t bytes) { return static_cast<double>(bytes) / 1e9; 
 
 double gasCellMemory(const SimulationSettings& s) {
   double bytes = stateMemory + solidMemory + writingMemory;
+  if (countOf(s.fluid.cells) * field > largeField) bytes -= givenBackMemory;
   bytes += sweepsSuffice(s.fluid, s.fluid.courant) ? sweepMemory : separateMemory;
   if (std::holds_alternative<SemiLagrangian>(s.fluid.advection)) bytes += pathMemory;
   if (std::holds_alternative<MultigridSolver>(s.fluid.pressure)) bytes += multigridMemory;
