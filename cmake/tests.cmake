@@ -65,6 +65,7 @@ endfunction()
 
 if(Python_FOUND)
   brisance_unittest(Farm farm/farm_test.py "Farm|unittest.TestCase")
+  brisance_unittest(Shell shell/shell_test.py unittest.TestCase)
 endif()
 if(TARGET brisance_python)
   execute_process(COMMAND ${Python_EXECUTABLE} -c "import numpy" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
