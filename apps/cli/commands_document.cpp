@@ -40,9 +40,14 @@ std::string rows(const std::vector<DescribedOption>& options) {
   return text;
 }
 
+std::string sentence(std::string text) {
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text + ".";
+}
+
 std::string section(const DescribedProgram& program, const DescribedCommand& command) {
-  std::string text = fmt::format("\n## {} {}\n\n{}.\n\n```\n{} {}\n```\n\n| | |\n|---|---|\n", program.name,
-                                 command.name, command.what, program.name, usageOf(command));
+  std::string text = fmt::format("\n## {} {}\n\n{}\n\n```\n{} {}\n```\n\n| | |\n|---|---|\n", program.name,
+                                 command.name, sentence(command.what), program.name, usageOf(command));
   text += rows(command.arguments) + rows(command.options);
   const std::vector<Note> examples = examplesOf(command.name);
   if (examples.empty()) return text;
