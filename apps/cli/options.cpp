@@ -122,21 +122,21 @@ void addFractureCommand(CLI::App& app, RawOptions& raw) {
   raw.fractureCommand = fracture;
 }
 
-constexpr std::pair<const char*, ExportFormat> exportFormats[] = {{"gltf", ExportFormat::gltf},
-                                                                  {"usd", ExportFormat::usd},
-                                                                  {"vdb", ExportFormat::vdb},
-                                                                  {"obj", ExportFormat::obj},
-                                                                  {"html", ExportFormat::html}};
+constexpr std::pair<const char*, ExportFormat> exportFormats[] = {
+    {"gltf", ExportFormat::gltf}, {"usd", ExportFormat::usd},
+    {"vdb", ExportFormat::vdb},   {"vdb-points", ExportFormat::vdbPoints},
+    {"obj", ExportFormat::obj},   {"html", ExportFormat::html}};
 
 void addExportCommand(CLI::App& app, RawOptions& raw) {
-  CLI::App* command = addCommand(app, raw, "export", "a run for other tools: moving bodies, gas");
+  CLI::App* command = addCommand(app, raw, "export", "a run for other tools: moving bodies, gas, particles");
   addPath(command, raw, "RUN", "the run directory");
   command
       ->add_option("--to", raw.format,
                    "gltf: bodies, moving, one .glb; usd: bodies and gas, one .usda; vdb: a folder of gas files; "
+                   "vdb-points: a folder with the particles of each frame; "
                    "obj: a folder with the bodies of each frame; html: a player in one file")
       ->required()
-      ->check(CLI::IsMember({"gltf", "usd", "vdb", "obj", "html"}))
+      ->check(CLI::IsMember({"gltf", "usd", "vdb", "vdb-points", "obj", "html"}))
       ->option_text("NAME");
   command->add_option("-o,--output", raw.options.output, "the file or folder to make")->required()->option_text("PATH");
   addFrames(command, raw, "A-B[:S]", "only these frames, from 1; all that are there where not given");

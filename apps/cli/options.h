@@ -28,7 +28,7 @@ struct PictureSize {
 /// "WxH". Throws InputError naming --size.
 PictureSize parsePictureSize(const std::string& text);
 
-enum class ExportFormat { gltf, usd, vdb, obj, html };
+enum class ExportFormat { gltf, usd, vdb, vdbPoints, obj, html };
 /// Whose habits the files follow.
 enum class ExportProfile { ours, blender };
 
