@@ -73,12 +73,12 @@ class Tutorial(unittest.TestCase):
         self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
         self.assertRegex(told.stdout, r"http://127\.0\.0\.1:\d+/")
         self.assertRegex(told.stdout, r"frame 12: \d+ K, fastest piece \d+\.\d m/s")
-        for file in ("runs/plate/film.mp4", "runs/more-pieces/images/frame.0016.png", "pieces.png", "more-pieces.png",
-                     "runs/more-fire/images/frame.0016.png", "plate.glb", "plate-gas", "plate.html",
+        for file in ("runs/plate/film.mp4", "runs/more-pieces/images/frame.0012.png", "pieces.png", "more-pieces.png",
+                     "runs/more-fire/images/frame.0012.png", "plate.glb", "plate-gas", "plate.html",
                      "runs/farmed/film.mp4", "watched.png"):
             self.assertTrue((self.folder / file).exists(), file)
         self.assertFalse((self.folder / "runs/on-slurm").exists())
-        self.assertEqual(len(list((self.folder / "runs/plate/images").glob("*.png"))), 36)
+        self.assertEqual(len(list((self.folder / "runs/plate/images").glob("*.png"))), 30)
 
     @unittest.skipUnless(os.environ.get("BRISANCE_LONG_TESTS"), "minutes: BRISANCE_LONG_TESTS is not set")
     def test_a_clone_can_be_set_up_and_makes_the_demo(self):
