@@ -78,7 +78,7 @@ class Tutorial(unittest.TestCase):
                      "runs/farmed/film.mp4", "watched.png"):
             self.assertTrue((self.folder / file).exists(), file)
         self.assertFalse((self.folder / "runs/on-slurm").exists())
-        self.assertEqual(len(list((self.folder / "runs/plate/images").glob("*.png"))), 30)
+        self.assertEqual(len(list((self.folder / "runs/plate/images").glob("*.png"))), 24)
 
     @unittest.skipUnless(os.environ.get("BRISANCE_LONG_TESTS"), "minutes: BRISANCE_LONG_TESTS is not set")
     def test_a_clone_can_be_set_up_and_makes_the_demo(self):
