@@ -33,10 +33,11 @@ struct GasBrick {
   /// Stores samples, to 1/131070 of the largest of the brick.
   void encode(const GasSample* samples) {
     constexpr float largestCode = 65535;
+    constexpr float least = 1e-30f;  // what is darker has no reciprocal that a float holds
     GasSample::Vector largest{}, none{};
     for (int n = 0; n < count; ++n) largest = samples[n].values > largest ? samples[n].values : largest;
     scale = largest / largestCode;
-    const GasSample::Vector perScale = largest > none ? largestCode / largest : none;
+    const GasSample::Vector perScale = largest > least ? largestCode / largest : none;
     for (int n = 0; n < count; ++n)
       for (int c = 0; c < 4; ++c)
         codes[4 * n + c] =
