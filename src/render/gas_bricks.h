@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/aligned.h"
 #include "base/math.h"
 
 namespace brisance {
@@ -96,9 +97,14 @@ struct alignas(64) GasBrick {
   }
 };
 
-/// Room for bricks, used again from frame to frame: fresh pages cost more time than the samples in them.
+/// Room for bricks, used again from frame to frame and in huge pages: fresh small ones cost more time than the samples
+/// in them.
 struct BrickMemory {
-  std::unique_ptr<GasBrick[]> bricks;
+  using Allocator = CacheLineAllocator<GasBrick>;
+  struct Release {
+    void operator()(GasBrick* bricks) const { Allocator().deallocate(bricks, 0); }
+  };
+  std::unique_ptr<GasBrick[], Release> bricks;
   std::int64_t room = 0;
   /// Makes room for `count`; what was held is lost when it has to grow.
   void reserve(std::int64_t count);
