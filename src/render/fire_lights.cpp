@@ -103,6 +103,9 @@ std::vector<FirePoint> findFirePoints(const GasMedium& gas, int count) {
   std::vector<FirePoint> points;
   std::vector<GlowingBlock> blocks = glowingBlocks(gas);
   if (count > 0) split(blocks, count, points);
+  // A block is no point itself: of a cube the root mean square distance from its middle is half an edge.
+  const auto ofBlock = static_cast<float>(0.5 * gas.blockGlow().cellSize);
+  for (FirePoint& point : points) point.radius = std::hypot(point.radius, ofBlock);
   return points;
 }
 

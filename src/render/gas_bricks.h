@@ -30,9 +30,8 @@ struct GasCode {
   static constexpr float unit = 0x1p95f, smallest = 0x1p-24f, largest = 0x1p31f;
 
   static std::uint32_t of(float value) {
-    const float scaled = std::min(value, largest) * (1 / unit);
-    const std::uint32_t rounded = (std::bit_cast<std::uint32_t>(scaled) + (1u << (shift - 1))) >> shift;
-    return value < smallest ? 0 : rounded;
+    const float scaled = (value >= smallest ? std::min(value, largest) : 0) * (1 / unit);  // what is no number: 0
+    return (std::bit_cast<std::uint32_t>(scaled) + (1u << (shift - 1))) >> shift;
   }
   /// Of the lower and the upper code of a word, times 1 / unit.
   static float lower(std::uint32_t word) { return std::bit_cast<float>((word & 0xffffu) << shift); }

@@ -104,7 +104,21 @@ TEST(GasBrick, CodesKeepTenBitsOfTheFraction) {
   }
   EXPECT_EQ(GasCode::of(0), 0u);
   EXPECT_EQ(GasCode::of(1e-9f), 0u);
+  EXPECT_EQ(GasCode::of(-1), 0u);
+  EXPECT_EQ(GasCode::of(std::numeric_limits<float>::quiet_NaN()), 0u);
   EXPECT_NEAR(GasCode::lower(GasCode::of(1e30f)) * GasCode::unit / GasCode::largest, 1, 1e-3);
+}
+
+// As many fire points as blocks: each lies in the middle of one, which it lights too.
+TEST(GasMedium, FireInTheMiddleOfABlockLightsItFinitely) {
+  VolumeSettings settings = plainSettings();
+  settings.smokeColour = {0.5f, 0.5f, 0.5f};
+  settings.emission = 1;
+  GasMedium gas(slab({8, 8, 8}, 2), settings);
+  gas.illuminate({}, lightSources({FireLight{.strength = 1, .lights = 8}}, &gas));
+  const GasPassage passage = gas.march({{-5, 0.41f, 0.37f}, {1, 0, 0}, 0, 100, 0.5f});
+  EXPECT_GT(passage.light.x, 1 - passage.transmittance);
+  EXPECT_LT(passage.light.x, 3);
 }
 
 TEST(GasMedium, WaysBesideTheGasAreFree) {
