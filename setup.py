@@ -20,6 +20,7 @@ class CMakeBuild(build_ext):
         build = pathlib.Path(self.build_temp).resolve()
         options = [
             "-DCMAKE_BUILD_TYPE=Release",
+            "-DCMAKE_CXX_FLAGS_RELEASE=-O3",  # as the preset `release`: the same code, which ccache may have
             "-DBRISANCE_TESTS=OFF",
             f"-DPython_EXECUTABLE={sys.executable}",
         ]

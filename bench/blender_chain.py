@@ -252,8 +252,8 @@ def look():
     camera = bpy.data.cameras.new("camera")
     camera.sensor_fit, camera.angle = "VERTICAL", math.radians(38)
     eye = bpy.data.objects.new("camera", camera)
-    eye.location = z_up(1.1, 1.75, 6.6)
-    eye.rotation_euler = (z_up(0, 2.15, 0.6) - eye.location).to_track_quat("-Z", "Y").to_euler()
+    eye.location = z_up(1.3, 2.2, 7.3)
+    eye.rotation_euler = (z_up(0, 1.7, 0.6) - eye.location).to_track_quat("-Z", "Y").to_euler()
     scene.collection.objects.link(eye)
     scene.camera = eye
 

@@ -103,8 +103,8 @@ world.node_tree.nodes["Background"].inputs[0].default_value = (0.10, 0.13, 0.20,
 camera = bpy.data.cameras.new("camera")
 camera.sensor_fit, camera.angle = "VERTICAL", math.radians(38)
 eye = bpy.data.objects.new("camera", camera)
-eye.location = zUp(1.1, 1.75, 6.6)
-eye.rotation_euler = (zUp(0, 2.15, 0.6) - eye.location).to_track_quat("-Z", "Y").to_euler()
+eye.location = zUp(1.3, 2.2, 7.3)
+eye.rotation_euler = (zUp(0, 1.7, 0.6) - eye.location).to_track_quat("-Z", "Y").to_euler()
 scene.collection.objects.link(eye)
 scene.camera = eye
 

@@ -13,6 +13,7 @@ if(NODE_PROGRAM AND NPM_PROGRAM)
       ${CMAKE_SOURCE_DIR}/viewer/package-lock.json ${CMAKE_SOURCE_DIR}/cmake/build_player.cmake
     COMMENT "Bundling the player" VERBATIM)
   add_custom_target(player ALL DEPENDS ${PLAYER_PAGE})
+  install(FILES ${PLAYER_PAGE} DESTINATION share/brisance OPTIONAL)
 else()
   add_custom_target(player ALL COMMAND ${CMAKE_COMMAND} -E echo "No player: Node.js or npm is missing")
 endif()

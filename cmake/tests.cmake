@@ -65,6 +65,11 @@ endfunction()
 
 if(Python_FOUND)
   brisance_unittest(Farm farm/farm_test.py "Farm|unittest.TestCase")
+  set_tests_properties(Farm.Slurm PROPERTIES TIMEOUT 3600)  # with the long test, a whole film twice
+  brisance_unittest(Shell shell/shell_test.py unittest.TestCase)
+  brisance_unittest(Docs docs/site_test.py unittest.TestCase)
+  brisance_unittest(Docs docs/tutorial_test.py unittest.TestCase)
+  set_tests_properties(Docs.Tutorial PROPERTIES TIMEOUT 3600)  # likewise
 endif()
 if(TARGET brisance_python)
   execute_process(COMMAND ${Python_EXECUTABLE} -c "import numpy" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
@@ -72,5 +77,8 @@ if(TARGET brisance_python)
     message(STATUS "No tests of the Python module: they need NumPy")
   else()
     brisance_unittest(Python python/python_test.py "Scratch|unittest.TestCase")
+    brisance_unittest(Python python/pages_test.py unittest.TestCase)
+    brisance_unittest(Python python/pip_test.py unittest.TestCase)
+    set_tests_properties(Python.PipInstall PROPERTIES TIMEOUT 3600)  # where BRISANCE_LONG_TESTS is set it builds all anew
   endif()
 endif()

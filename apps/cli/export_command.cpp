@@ -12,7 +12,9 @@
 #include "frame/gas_file.h"
 #include "frame/gltf_export.h"
 #include "frame/manifest.h"
+#include "frame/particle_file.h"
 #include "frame/piece_files.h"
+#include "frame/point_file.h"
 #include "frame/usd_export.h"
 #include "interruption.h"
 #include "player_page.h"
@@ -106,6 +108,21 @@ std::string gasBytes(const ExportWork& work, int frame) {
   return gasToVdb(gasFromVdb(bytes, (work.options.path / name).string()), {"velocity", true});
 }
 
+/// As wide as pictures draw them: fire and smoke spread by the volume's blur, sparks and grains by their own sizes.
+PointFileSettings pointSettings(const Scene& scene) {
+  const FluidSettings& gas = scene.simulation.fluid;
+  const auto fire = static_cast<float>(scene.render.volume.blur);
+  const auto spark = static_cast<float>(scene.render.bits.sparkWidth / 2);
+  const auto grain = static_cast<float>(scene.render.bits.grainSize / 2);
+  return {gas.corner + Vec3d(0.5, 0.5, 0.5) * gas.cellSize, gas.cellSize, {fire, fire, fire, spark, grain}};
+}
+
+std::string pointBytes(const ExportWork& work, int frame) {
+  const std::string name = FrameFileNames(frame).particles;
+  const FrameParticles particles = particlesFromPly(work.reader.bytes(name), (work.options.path / name).string());
+  return particlesToVdb(particles, pointSettings(work.scene));
+}
+
 std::string objText(const ExportWork& work, int frame) {
   Frame read;
   work.reader.readBodies(frame, read);
@@ -141,6 +158,8 @@ void doExport(ExportWork& work) {
       return exportUsd(work);
     case ExportFormat::vdb:
       return exportFolder(work, gasBytes);
+    case ExportFormat::vdbPoints:
+      return exportFolder(work, pointBytes);
     case ExportFormat::obj:
       return exportFolder(work, objText);
     case ExportFormat::html:

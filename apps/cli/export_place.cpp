@@ -11,7 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool makesFolder(ExportFormat format) { return format == ExportFormat::vdb || format == ExportFormat::obj; }
+bool makesFolder(ExportFormat format) {
+  return format == ExportFormat::vdb || format == ExportFormat::vdbPoints || format == ExportFormat::obj;
+}
 
 /// Of a format that makes one file.
 const char* endingOf(ExportFormat format) {
@@ -72,7 +74,9 @@ void refuseMissingParent(const fs::path& output) {
 }  // namespace
 
 std::string exportedName(ExportFormat format, int frame) {
-  return format == ExportFormat::vdb ? fmt::format("gas.{:04}.vdb", frame) : fmt::format("bodies.{:04}.obj", frame);
+  if (format == ExportFormat::vdb) return fmt::format("gas.{:04}.vdb", frame);
+  if (format == ExportFormat::vdbPoints) return fmt::format("particles.{:04}.vdb", frame);
+  return fmt::format("bodies.{:04}.obj", frame);
 }
 
 void refuseExportPlace(const Options& options) {

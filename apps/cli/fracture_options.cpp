@@ -108,6 +108,14 @@ class MethodOptions {
   std::string method_;
 };
 
+/// What is offered by completions and pages; whether a word is right is decided with the method.
+CLI::Validator offered(std::initializer_list<std::span<const std::string_view>> lists) {
+  std::string words;
+  for (const auto& list : lists)
+    for (const std::string_view word : list) words.append(words.empty() ? 0 : 1, ',').append(word);
+  return CLI::Validator(fmt::format("{{{}}}", words));
+}
+
 }  // namespace
 
 void addFractureOptions(CLI::App& command, RawFractureOptions& raw) {
@@ -121,6 +129,7 @@ void addFractureOptions(CLI::App& command, RawFractureOptions& raw) {
   command.add_flag_callback(
       "--no-picture", [&raw] { raw.options.picture = false; }, "none beside a .glb file");
   command.add_option("--method", raw.method, "how pieces are chosen: " + listed(fractureMethodNames))
+      ->check(offered({fractureMethodNames}))
       ->option_text("NAME");
   settings.pieces = 16;
   command.add_option("--pieces", settings.pieces, "how many; 16 where not given")
@@ -135,14 +144,18 @@ void addFractureOptions(CLI::App& command, RawFractureOptions& raw) {
   command.add_flag("--flat", settings.solid.flat, "inside faces of solid pieces flat, whatever the method");
   command
       .add_option("--weights", raw.weights, "of curvature: clipped (default), raw; of spectral: unit (default), length")
+      ->check(offered({curvatureWeights, edgeWeights}))
       ->option_text("NAME");
   command.add_option("--parts", raw.parts, "of curvature: so many parts, then breadth-first inside them")
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");
   command
       .add_option("--inside", raw.inside, "of curvature with --parts: which are broken further: all, smallest, largest")
+      ->check(offered({insides}))
       ->option_text("NAME");
-  command.add_option("--split", raw.split, "of breadth_first_thesis: list (default), level")->option_text("NAME");
+  command.add_option("--split", raw.split, "of breadth_first_thesis: list (default), level")
+      ->check(offered({splits}))
+      ->option_text("NAME");
   command.add_option("--impact", raw.impact, "of voronoi: pieces are small near this point")->option_text("X,Y,Z");
   command.add_option("--crowding", raw.crowding, "of voronoi with --impact: how much smaller; 2 where not given")
       ->check(CLI::Range(0.0, 10.0))

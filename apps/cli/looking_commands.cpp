@@ -1,4 +1,4 @@
-// The commands that only look: check, info, verify, reference.
+// The commands that only look: check, info, verify.
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -9,7 +9,6 @@
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_report.h"
 #include "scene/estimate.h"
-#include "scene/reference.h"
 
 namespace brisance {
 
@@ -94,11 +93,6 @@ int verifyCommand(const Options& options) {
     fmt::print("{}: {} files, all as they were written\n", options.path.string(), files);
   for (const std::string& problem : problems) fmt::print(stderr, "{}\n", problem);
   return static_cast<int>(problems.empty() ? ExitCode::done : ExitCode::badInput);
-}
-
-int referenceCommand(const Options& options) {
-  fmt::print("{}", options.page == "schema" ? sceneSchema() : parametersDocument());
-  return static_cast<int>(ExitCode::done);
 }
 
 }  // namespace brisance

@@ -2,29 +2,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 
 #include "base/check.h"
+#include "command_notes.h"
+#include "command_tree.h"
 
 namespace brisance {
 
 namespace {
 
-/// A whole number from 1 at the start of `text`, taken off it.
-std::optional<int> takeNumber(std::string_view& text) {
-  int value = 0;
-  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (trouble != std::errc() || value < 1) return std::nullopt;
-  text.remove_prefix(end - text.data());
-  return value;
-}
-
-bool take(std::string_view& text, char letter) {
-  if (!text.starts_with(letter)) return false;
-  text.remove_prefix(1);
-  return true;
-}
+constexpr const char* whatItDoes = "One scene file in; a film of an exploding, shattering scene out.";
 
 /// What CLI11 writes into while it reads.
 struct RawOptions {
@@ -134,21 +122,21 @@ void addFractureCommand(CLI::App& app, RawOptions& raw) {
   raw.fractureCommand = fracture;
 }
 
-constexpr std::pair<const char*, ExportFormat> exportFormats[] = {{"gltf", ExportFormat::gltf},
-                                                                  {"usd", ExportFormat::usd},
-                                                                  {"vdb", ExportFormat::vdb},
-                                                                  {"obj", ExportFormat::obj},
-                                                                  {"html", ExportFormat::html}};
+constexpr std::pair<const char*, ExportFormat> exportFormats[] = {
+    {"gltf", ExportFormat::gltf}, {"usd", ExportFormat::usd},
+    {"vdb", ExportFormat::vdb},   {"vdb-points", ExportFormat::vdbPoints},
+    {"obj", ExportFormat::obj},   {"html", ExportFormat::html}};
 
 void addExportCommand(CLI::App& app, RawOptions& raw) {
-  CLI::App* command = addCommand(app, raw, "export", "a run for other tools: moving bodies, gas");
+  CLI::App* command = addCommand(app, raw, "export", "a run for other tools: moving bodies, gas, particles");
   addPath(command, raw, "RUN", "the run directory");
   command
       ->add_option("--to", raw.format,
                    "gltf: bodies, moving, one .glb; usd: bodies and gas, one .usda; vdb: a folder of gas files; "
+                   "vdb-points: a folder with the particles of each frame; "
                    "obj: a folder with the bodies of each frame; html: a player in one file")
       ->required()
-      ->check(CLI::IsMember({"gltf", "usd", "vdb", "obj", "html"}))
+      ->check(CLI::IsMember({"gltf", "usd", "vdb", "vdb-points", "obj", "html"}))
       ->option_text("NAME");
   command->add_option("-o,--output", raw.options.output, "the file or folder to make")->required()->option_text("PATH");
   addFrames(command, raw, "A-B[:S]", "only these frames, from 1; all that are there where not given");
@@ -220,11 +208,40 @@ void addLookingCommands(CLI::App& app, RawOptions& raw) {
   addPath(info, raw, "PATH", "a run directory, a scene file or a mesh");
   CLI::App* verify = addCommand(app, raw, "verify", "every file of a run against the hashes of its manifest");
   addPath(verify, raw, "RUN", "the run directory");
-  CLI::App* reference = addCommand(app, raw, "reference", "print what is known of the scene file's keys");
-  reference->add_option("PAGE", raw.options.page, "parameters (for people) or schema (for editors)")
+}
+
+void addReferenceCommand(CLI::App& app, RawOptions& raw) {
+  CLI::App* reference = addCommand(app, raw, "reference", "print a page about the scene file or the commands");
+  reference
+      ->add_option("PAGE", raw.options.page,
+                   "keys of the scene file: parameters for people, schema for editors; commands: commands in Markdown, "
+                   "man for man, completion-... for shells")
       ->required()
-      ->check(CLI::IsMember({"parameters", "schema"}))
+      ->check(CLI::IsMember(
+          {"parameters", "schema", "commands", "man", "completion-bash", "completion-zsh", "completion-fish"}))
       ->option_text(" ");
+  reference->add_option("COMMAND", raw.options.pageOf, "of man: the command that the page is about")->option_text(" ");
+}
+
+void addExamples(CLI::App& command) {
+  std::string lines;
+  for (const Note& example : examplesOf(command.get_name())) lines += "\n  " + example.name;
+  if (!lines.empty()) command.footer("Examples:" + lines);
+}
+
+/// Everything that can be typed.
+void addCommands(CLI::App& app, RawOptions& raw) {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("brisance ") + BRISANCE_VERSION, "print the version and end");
+  app.set_help_flag("-h,--help", "print this and end");
+  addSceneCommands(app, raw);
+  addPictureCommands(app, raw);
+  addFractureCommand(app, raw);
+  addExportCommand(app, raw);
+  addFarmCommand(app, raw);
+  addLookingCommands(app, raw);
+  addReferenceCommand(app, raw);
+  for (CLI::App* command : app.get_subcommands(nullptr)) addExamples(*command);
 }
 
 /// The first word that is no option; CLI11 itself would only say that a command is missing.
@@ -258,37 +275,17 @@ Options finished(RawOptions raw) {
 
 }  // namespace
 
-FrameRange parseFrameRange(const std::string& text) {
-  std::string_view rest = text;
-  const auto first = takeNumber(rest);
-  const auto last = take(rest, '-') ? takeNumber(rest) : first;
-  const auto step = take(rest, ':') ? takeNumber(rest) : std::optional<int>(1);
-  if (!first || !last || !step || !rest.empty() || *last < *first)
-    throw InputError(fmt::format(
-        "brisance: --frames: must be A-B or A-B:S with 1 <= A <= B and S >= 1, like 1-100:2, got {}", text));
-  return {*first, *last, *step};
-}
-
-PictureSize parsePictureSize(const std::string& text) {
-  std::string_view rest = text;
-  const auto width = takeNumber(rest);
-  const auto height = take(rest, 'x') ? takeNumber(rest) : std::nullopt;
-  if (!width || !height || !rest.empty())
-    throw InputError(fmt::format("brisance: --size: must be WIDTHxHEIGHT in pixels, like 640x480, got {}", text));
-  return {*width, *height};
+DescribedProgram describedProgram() {
+  CLI::App app(whatItDoes, "brisance");
+  RawOptions raw;
+  addCommands(app, raw);
+  return describe(app);
 }
 
 CommandLine parseCommandLine(int count, const char* const* arguments) {
-  CLI::App app("One scene file in; a film of an exploding, shattering scene out.", "brisance");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", std::string("brisance ") + BRISANCE_VERSION);
+  CLI::App app(whatItDoes, "brisance");
   RawOptions raw;
-  addSceneCommands(app, raw);
-  addPictureCommands(app, raw);
-  addFractureCommand(app, raw);
-  addExportCommand(app, raw);
-  addFarmCommand(app, raw);
-  addLookingCommands(app, raw);
+  addCommands(app, raw);
   refuseUnknownCommand(app, count, arguments);
   try {
     app.parse(count, arguments);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "command_tree.h"
 #include "fracture_options.h"
 
 namespace brisance {
@@ -27,7 +28,7 @@ struct PictureSize {
 /// "WxH". Throws InputError naming --size.
 PictureSize parsePictureSize(const std::string& text);
 
-enum class ExportFormat { gltf, usd, vdb, obj, html };
+enum class ExportFormat { gltf, usd, vdb, vdbPoints, obj, html };
 /// Whose habits the files follow.
 enum class ExportProfile { ours, blender };
 
@@ -55,6 +56,7 @@ struct Options {
   std::filesystem::path path;                  ///< SCENE, RUN, MESH or PATH
   std::filesystem::path output;                ///< empty: not given
   std::string page;                            ///< of `reference`
+  std::string pageOf;                          ///< of its page `man`: a command; empty: the program
   std::optional<FrameRange> frames;            ///< absent: all
   std::optional<PictureSize> size;             ///< absent: the scene's
   std::optional<int> samples;                  ///< absent: the scene's
@@ -79,5 +81,8 @@ struct CommandLine {
 
 /// Throws InputError with one line for anything that does not belong there.
 CommandLine parseCommandLine(int count, const char* const* arguments);
+
+/// All that can be typed.
+DescribedProgram describedProgram();
 
 }  // namespace brisance

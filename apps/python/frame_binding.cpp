@@ -32,8 +32,8 @@ auto particles(Field FrameParticles::*field) {
 
 void bindBody(py::module_& module) {
   py::class_<FrameBody>(module, "FrameBody", "A body at a moment.")
-      .def_readonly("name", &FrameBody::name)
-      .def_readonly("material", &FrameBody::material)
+      .def_readonly("name", &FrameBody::name, "Its own; of a piece that of its body and a number.")
+      .def_readonly("material", &FrameBody::material, "Name of the scene's material.")
       .def_readonly("moves", &FrameBody::moves, "False: scenery.")
       .def_readonly("temperature", &FrameBody::temperature, "[K]")
       .def_property_readonly(
@@ -94,7 +94,7 @@ std::shared_ptr<Frame> readFrameOf(const RunHandle& run, int index) {
 void bindRun(py::module_& module) {
   py::class_<RunHandle>(module, "Run", "A run directory that the program has made, or is making.")
       .def(py::init(&openRun), py::arg("path"))
-      .def_readonly("path", &RunHandle::path)
+      .def_readonly("path", &RunHandle::path, "The run's directory.")
       .def_readonly("scene", &RunHandle::scene, "As it was run.")
       .def_property_readonly(
           "last_frame", [](const RunHandle& run) { return RunReader(run.path).lastFrame(); },

@@ -147,15 +147,18 @@ void bindWorlds(py::module_& module) {
       .def("capture", &WorldHandle::capture, "The moment as a Frame, as it would be written to a run.")
       .def("render", &render, py::kw_only(), py::arg("width") = py::none(), py::arg("height") = py::none(),
            py::arg("samples") = py::none(), py::arg("alpha") = false, "The picture of the moment: see `render`.")
-      .def_property_readonly("scene", &WorldHandle::sharedScene)
+      .def_property_readonly("scene", &WorldHandle::sharedScene, "What it was made of.")
       .def_property_readonly(
           "frame", [](WorldHandle& world) { return world.state().frame; }, "The number of the moment's frame, from 1.")
       .def_property_readonly(
           "time", [](WorldHandle& world) { return world.state().time; }, "Simulated [s].")
       .def_property_readonly("report", &reportOf, "What the last step has to say for itself: a dictionary.")
-      .def_property_readonly("gas", [](const WorldPointer& world) { return Gas{world}; })
-      .def_property_readonly("bodies", [](const WorldPointer& world) { return Bodies{world}; })
-      .def_property_readonly("particles", [](const WorldPointer& world) { return Particles{world}; });
+      .def_property_readonly(
+          "gas", [](const WorldPointer& world) { return Gas{world}; }, "Its gas, now.")
+      .def_property_readonly(
+          "bodies", [](const WorldPointer& world) { return Bodies{world}; }, "Its bodies, now.")
+      .def_property_readonly(
+          "particles", [](const WorldPointer& world) { return Particles{world}; }, "Its particles, now.");
 }
 
 }  // namespace brisance::python

@@ -15,6 +15,7 @@
 #include "base/check.h"
 #include "base/parallel.h"
 #include "frame/leaf_packing.h"
+#include "frame/vdb_uuid.h"
 
 namespace brisance {
 
@@ -153,13 +154,7 @@ class FileStart : public openvdb::io::Archive {
     writeHeader(out, /*seekable=*/true);
     openvdb::MetaMap().writeMeta(out);
     writeValue(out, grids);
-    std::string start = std::move(out).str(), uuid = hash;
-    constexpr std::size_t place = sizeof(std::int64_t) + 3 * sizeof(std::uint32_t) + sizeof(char);
-    for (const std::size_t dash : {8, 13, 18, 23}) {
-      CHECK(start.size() > place + dash && start[place + dash] == '-', "no UUID in the header of the VDB");
-      uuid.insert(dash, "-");
-    }
-    return start.replace(place, uuid.size(), uuid);
+    return withUuid(std::move(out).str(), hash);
   }
 };
 

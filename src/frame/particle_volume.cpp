@@ -97,8 +97,7 @@ void layOut(Grid3<T>& grid, const CellBox& cells, const ParticleVolumeSettings& 
 }
 
 /// Density and colour of one row from its blurred sums; none outside the span.
-void finishRow(const CellSpan& span, const float* const* sums, float perVolume, int cells, float* density,
-               Vec3f* colour) {
+void finishRow(const CellSpan& span, float* const* sums, float perVolume, int cells, float* density, Vec3f* colour) {
   std::fill(density, density + span.first, 0.f);
   std::fill(colour, colour + span.first, Vec3f());
   for (int i = span.first; i < span.end; ++i) {
@@ -110,18 +109,12 @@ void finishRow(const CellSpan& span, const float* const* sums, float perVolume, 
   std::fill(colour + span.end, colour + cells, Vec3f());
 }
 
-/// Between the passes of the blur the sums lie where the volume will: mass in the row of the density, the others one
-/// after the other in that of the colour.
 BlurTask volumeBlur(const SymmetricFilter& filter, ParticleVolume& volume) {
   const Vec3i size = volume.density.size;
-  BlurTask task{.size = size, .channels = channels, .filter = filter, .fill = {}, .memory = {}, .finish = {}};
-  task.memory = [&volume, cells = size.x](int channel, int j, int k) {
-    if (channel == 0) return &volume.density(0, j, k);
-    return &volume.colour(0, j, k).x + static_cast<std::int64_t>(channel - 1) * cells;
-  };
+  BlurTask task{.size = size, .channels = channels, .filter = filter, .fill = {}, .finish = {}};
   const double cell = volume.density.cellSize;
   const float perVolume = static_cast<float>(1 / (cell * cell * cell));
-  task.finish = [&volume, perVolume, cells = size.x](int j, int k, const CellSpan& span, const float* const* sums) {
+  task.finish = [&volume, perVolume, cells = size.x](int j, int k, const CellSpan& span, float* const* sums) {
     float* density = &volume.density(0, j, k);
     Vec3f* colour = &volume.colour(0, j, k);
     runWide([&] { finishRow(span, sums, perVolume, cells, density, colour); });

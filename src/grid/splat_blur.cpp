@@ -42,32 +42,30 @@ inline void sumSpan(const float* const* rows, const SymmetricFilter& filter, con
     sumBlock(rows, filter, cell, sums + cell);
 }
 
-/// The last rows along an axis, x-blurred or not, as many as the filter reaches: of each its channels one after the
-/// other, with padding around them.
+/// The last rows along an axis, as many as the filter reaches: of each its channels one after the other, with padding
+/// around them.
 class RowRing {
  public:
-  RowRing(const BlurTask& task)
-      : filter_(task.filter),
-        channels_(task.channels),
-        pad_(padding(task.filter.radius())),
-        width_(paddedWidth(task.size.x, task.filter.radius())),
-        slots_(2 * task.filter.radius() + 1),
+  RowRing(const SymmetricFilter& filter, int channels, int cells)
+      : filter_(filter),
+        channels_(channels),
+        pad_(padding(filter.radius())),
+        width_(paddedWidth(cells, filter.radius())),
+        slots_(2 * filter.radius() + 1),
         rows_(static_cast<std::size_t>(slots_) * channels_ * width_, 0.f),
         spans_(slots_),
-        sums_(static_cast<std::size_t>(channels_) * width_, 0.f),
         window_(slots_) {}
 
-  int pad() const { return pad_; }
-  int width() const { return width_; }
-
-  /// Makes row n, in the place of the oldest, one that is filled in `span` only; the caller writes that. n counts up
-  /// from -radius.
+  /// Makes row n, in the place of the oldest, one that is filled in `span` only; the caller writes all of that. n
+  /// counts up from -radius.
   void begin(int n, const CellSpan& span) {
     CellSpan& old = spans_[slotOf(n)];
     if (span.empty() || old.first < span.first || old.end > span.end)
       for (int c = 0; c < channels_; ++c) std::fill(row(n, c) + old.first, row(n, c) + old.end, 0.f);
     old = span;
   }
+  /// Of a row that was begun empty: what was written since.
+  void hasFilled(int n, const CellSpan& span) { spans_[slotOf(n)] = span; }
   float* row(int n, int channel) { return slot(n) + channel * width_ + pad_; }
 
   /// The cells that the sums over the rows around n fill: those of all rows.
@@ -76,146 +74,138 @@ class RowRing {
     for (const CellSpan& span : spans_) all.include(span);
     return all;
   }
-  void sumAround(int n, const CellSpan& span) {
+  /// Filtered sums over the rows around n, to lines that padding like the rows' own surrounds.
+  void sumAround(int n, const CellSpan& span, float* const* lines) {
     const int radius = filter_.radius();
-    for (int t = -radius; t <= radius; ++t) window_[t + radius] = slot(n + t);
     for (int c = 0; c < channels_; ++c) {
-      const int start = c * width_ + pad_;
-      sumSpan(window_.data() + radius, filter_, {start + span.first, start + span.end}, sums_.data());
+      for (int t = -radius; t <= radius; ++t) window_[t + radius] = row(n + t, c);
+      sumSpan(window_.data() + radius, filter_, span, lines[c]);
     }
   }
-  const float* sums(int channel) const { return sums_.data() + channel * width_ + pad_; }
 
  private:
   int slotOf(int n) const { return (n + slots_) % slots_; }
   float* slot(int n) { return rows_.data() + static_cast<std::int64_t>(slotOf(n)) * channels_ * width_; }
 
-  const SymmetricFilter& filter_;
+  SymmetricFilter filter_;
   int channels_, pad_, width_, slots_;
   AlignedVector<float> rows_;
   std::vector<CellSpan> spans_;
-  AlignedVector<float> sums_;
   std::vector<const float*> window_;
 };
 
-/// Makes a layer's rows, blurs them along x and y and puts them into the caller's memory.
-class LayerBlur {
+/// Lines of cells for each channel, with padding around them, empty at first.
+class Lines {
  public:
-  LayerBlur(const BlurTask& task, std::vector<CellSpan>& spans)
-      : task_(task),
-        spans_(spans),
-        ring_(task),
-        made_(static_cast<std::size_t>(task.channels) * (task.size.x + 1), 0.f),
-        lines_(static_cast<std::size_t>(task.channels) * ring_.width(), 0.f),
-        window_(2 * task.filter.radius() + 1) {}
+  Lines(const SymmetricFilter& filter, int channels, int cells)
+      : values_(static_cast<std::size_t>(channels) * paddedWidth(cells, filter.radius()), 0.f) {
+    for (int c = 0; c < channels; ++c)
+      of_.push_back(values_.data() + c * paddedWidth(cells, filter.radius()) + padding(filter.radius()));
+  }
+  float* const* data() const { return of_.data(); }
+  float* operator[](int channel) const { return of_[channel]; }
 
-  void run(int k) {
+ private:
+  AlignedVector<float> values_;
+  std::vector<float*> of_;
+};
+
+/// Blurs some neighbouring rows of all layers. Layer after layer is made, with as many rows beside the own ones as the
+/// filter reaches, and blurred along y and x; of the last layers the own rows are kept and blurred along z. So nothing
+/// but what is handed out leaves the cache, and rows near another strip are made twice.
+class StripBlur {
+ public:
+  StripBlur(const BlurTask& task, int rows)
+      : task_(task),
+        made_(task.filter, 1, task.channels * task.size.x),
+        summed_(task.filter, 1, task.channels * task.size.x),
+        apart_(task.filter, task.channels, task.size.x),
+        blurred_(task.filter, task.channels, task.size.x),
+        window_(2 * task.filter.radius() + 1),
+        layers_(rows, RowRing(task.filter, task.channels, task.size.x)) {}
+
+  /// Rows first <= j < end, no more than the constructor was told.
+  void run(int first, int end) {
     const int radius = task_.filter.radius();
-    for (int j = -radius; j < radius; ++j) take(j, k);
-    for (int j = 0; j < task_.size.y; ++j) {
-      take(j + radius, k);
-      const CellSpan reached = ring_.reached();
-      spans_[j + static_cast<std::int64_t>(task_.size.y) * k] = reached;
-      if (reached.empty()) continue;
-      runWide([&] { ring_.sumAround(j, reached); });
-      for (int c = 0; c < task_.channels; ++c)
-        std::copy(ring_.sums(c) + reached.first, ring_.sums(c) + reached.end, task_.memory(c, j, k) + reached.first);
+    for (int k = -radius; k < task_.size.z + radius; ++k) {
+      makeLayer(first, end, k);
+      if (k < radius) continue;
+      for (int j = first; j < end; ++j) finish(layers_[j - first], j, k - radius);
     }
   }
 
  private:
-  void take(int j, int k) {
-    const bool inside = j >= 0 && j < task_.size.y;
-    const CellSpan made = inside ? task_.fill(j, k, made_.data()) : CellSpan{};
-    if (made.empty()) return ring_.begin(j, {});
+  void makeLayer(int first, int end, int k) {
+    const int radius = task_.filter.radius();
+    if (k < 0 || k >= task_.size.z) {
+      for (int j = first; j < end; ++j) layers_[j - first].begin(k, {});
+      return;
+    }
+    for (int j = first - radius; j < end + radius; ++j) {
+      made_.begin(j, {});
+      if (j >= 0 && j < task_.size.y) {
+        const CellSpan span = task_.fill(j, k, made_.row(j, 0));
+        made_.hasFilled(j, {span.first * task_.channels, span.end * task_.channels});
+      }
+      if (const int middle = j - radius; middle >= first) blurLayerRow(layers_[middle - first], middle, k);
+    }
+  }
+
+  /// Along y, cells side by side; then apart along x.
+  void blurLayerRow(RowRing& layers, int j, int k) {
+    const CellSpan side = made_.reached();
+    if (side.empty()) return layers.begin(k, {});
+    const CellSpan made{side.first / task_.channels, side.end / task_.channels};
     const int radius = task_.filter.radius();
     const CellSpan reached{std::max(0, made.first - radius), std::min(task_.size.x, made.end + radius)};
-    ring_.begin(j, reached);
-    runWide([&] { blurAlongX(j, made, reached); });
+    layers.begin(k, reached);
+    runWide([&] {
+      made_.sumAround(j, side, summed_.data());
+      task_.channels == 4 ? takeApart<4>(made) : takeApart<1>(made);
+      for (int c = 0; c < task_.channels; ++c) {
+        for (int t = -radius; t <= radius; ++t) window_[t + radius] = apart_[c] + t;
+        sumSpan(window_.data() + radius, task_.filter, reached,
+                layers.row(k, c));  // what lies beyond the span is not used
+        std::fill(apart_[c] + made.first, apart_[c] + made.end, 0.f);
+      }
+    });
   }
 
   /// From cells side by side to a line for each channel.
   template <int channels>
   void takeApart(const CellSpan& made) {
-    for (int c = 0; c < channels; ++c) {
-      float* line = lines_.data() + c * ring_.width() + ring_.pad();
-      for (int i = made.first; i < made.end; ++i) line[i] = made_[channels * i + c];
-    }
-    std::fill(made_.begin() + channels * made.first, made_.begin() + channels * made.end, 0.f);
+    for (int c = 0; c < channels; ++c)
+      for (int i = made.first; i < made.end; ++i) apart_[c][i] = summed_[0][channels * i + c];
   }
 
-  void blurAlongX(int j, const CellSpan& made, const CellSpan& reached) {
-    const int radius = task_.filter.radius();
-    task_.channels == 4 ? takeApart<4>(made) : takeApart<1>(made);
-    for (int c = 0; c < task_.channels; ++c) {
-      float* line = lines_.data() + c * ring_.width() + ring_.pad();
-      for (int t = -radius; t <= radius; ++t) window_[t + radius] = line + t;
-      sumSpan(window_.data() + radius, task_.filter, reached,
-              ring_.row(j, c));  // what lies beyond the span is not used
-      std::fill(line + made.first, line + made.end, 0.f);
-    }
+  void finish(RowRing& layers, int j, int k) {
+    const CellSpan reached = layers.reached();
+    if (!reached.empty()) runWide([&] { layers.sumAround(k, reached, blurred_.data()); });
+    task_.finish(j, k, reached, blurred_.data());
   }
 
   const BlurTask& task_;
-  std::vector<CellSpan>& spans_;
-  RowRing ring_;
-  AlignedVector<float> made_, lines_;
+  RowRing made_;  ///< channels side by side
+  Lines summed_, apart_, blurred_;
   std::vector<const float*> window_;
+  std::vector<RowRing> layers_;  ///< per row of the strip
 };
 
-/// Blurs the rows of one j along z and hands them out: those of the ring are copies, since the place of the finished
-/// ones is the caller's to use.
-class ColumnBlur {
- public:
-  ColumnBlur(const BlurTask& task, const std::vector<CellSpan>& spans)
-      : task_(task), spans_(spans), ring_(task), blurred_(task.channels) {
-    for (int c = 0; c < task.channels; ++c) blurred_[c] = ring_.sums(c);
-  }
-
-  void run(int j) {
-    const int radius = task_.filter.radius();
-    for (int k = -radius; k < radius; ++k) take(j, k);
-    for (int k = 0; k < task_.size.z; ++k) {
-      take(j, k + radius);
-      const CellSpan reached = ring_.reached();
-      if (!reached.empty()) runWide([&] { ring_.sumAround(k, reached); });
-      task_.finish(j, k, reached, blurred_.data());
-    }
-  }
-
- private:
-  void take(int j, int k) {
-    const bool inside = k >= 0 && k < task_.size.z;
-    const CellSpan span = inside ? spans_[j + static_cast<std::int64_t>(task_.size.y) * k] : CellSpan{};
-    ring_.begin(k, span);
-    if (span.empty()) return;
-    for (int c = 0; c < task_.channels; ++c) {
-      const float* from = task_.memory(c, j, k);
-      std::copy(from + span.first, from + span.end, ring_.row(k, c) + span.first);
-    }
-  }
-
-  const BlurTask& task_;
-  const std::vector<CellSpan>& spans_;
-  RowRing ring_;
-  std::vector<const float*> blurred_;
-};
-
-constexpr int tasksPerAxis = 32;  // enough for many cores; each has scratch memory of its own
-std::int64_t grainOf(int count) { return (count + tasksPerAxis - 1) / tasksPerAxis; }
+/// Wide enough that few rows are made twice, and enough strips for the threads.
+int rowsPerStrip(const BlurTask& task) {
+  const int wide = std::max(16, 2 * task.filter.radius()), share = task.size.y / (2 * threadCount());
+  return std::clamp(share, std::min(8, task.size.y), wide);
+}
 
 }  // namespace
 
 void blurSeparably(const BlurTask& task) {
   CHECK(task.channels == 1 || task.channels == 4, "{} channels", task.channels);
-  std::vector<CellSpan> spans(static_cast<std::size_t>(task.size.y) * task.size.z);
-  parallelFor(0, task.size.z, grainOf(task.size.z), [&](std::int64_t first, std::int64_t last) {
-    LayerBlur blur(task, spans);
-    for (int k = static_cast<int>(first); k < last; ++k) blur.run(k);
-  });
-  parallelFor(0, task.size.y, grainOf(task.size.y), [&](std::int64_t first, std::int64_t last) {
-    ColumnBlur blur(task, spans);
-    for (int j = static_cast<int>(first); j < last; ++j) blur.run(j);
+  const int rows = rowsPerStrip(task);
+  parallelFor(0, (task.size.y + rows - 1) / rows, 1, [&](std::int64_t first, std::int64_t last) {
+    StripBlur blur(task, rows);
+    for (int strip = static_cast<int>(first); strip < last; ++strip)
+      blur.run(strip * rows, std::min((strip + 1) * rows, task.size.y));
   });
 }
 

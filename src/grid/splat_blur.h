@@ -41,18 +41,16 @@ struct SplatPoint {
   std::array<float, channels> amount;
 };
 
-/// A field of `channels` values per cell, blurred along all axes. It is made row by row, kept between the passes
-/// in memory of the caller's, and handed out row by row; what lies in between fits a cache.
+/// A field of `channels` values per cell, blurred along all axes. It is made row by row, some rows more than once, and
+/// handed out row by row; what lies in between fits a cache.
 struct BlurTask {
   Vec3i size;
   int channels = 1;  ///< 1 or 4
   SymmetricFilter filter;
   /// Adds the field's row (j, k) to empty cells, the channels of one cell side by side, and tells which it has filled.
   std::function<CellSpan(int j, int k, float* cells)> fill;
-  /// Memory of size.x floats for row (j, k) of a channel; the row's finish may overwrite it.
-  std::function<float*(int channel, int j, int k)> memory;
   /// Takes row (j, k): cells outside `span` are zero; channel c's cell i is blurred[c][i]. Called once for every row.
-  std::function<void(int j, int k, const CellSpan& span, const float* const* blurred)> finish;
+  std::function<void(int j, int k, const CellSpan& span, float* const* blurred)> finish;
 };
 /// The callbacks come from several threads at once, each for rows of its own.
 void blurSeparably(const BlurTask& task);

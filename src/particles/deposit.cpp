@@ -48,13 +48,12 @@ bool hasSolids(const Grid3<std::uint8_t>& solid) {
 /// One over the share of each cell's kernel that falls on gas, 0 where none does.
 void normalizeByGas(const Grid3<std::uint8_t>& solid, const SymmetricFilter& filter, Grid3<float>& perSource) {
   perSource = Grid3<float>(solid.size, solid.origin, solid.cellSize);
-  BlurTask task{.size = solid.size, .channels = 1, .filter = filter, .fill = {}, .memory = {}, .finish = {}};
+  BlurTask task{.size = solid.size, .channels = 1, .filter = filter, .fill = {}, .finish = {}};
   task.fill = [&](int j, int k, float* cells) {
     for (int i = 0; i < solid.size.x; ++i) cells[i] = solid(i, j, k) ? 0.f : 1.f;
     return CellSpan{0, solid.size.x};
   };
-  task.memory = [&](int, int j, int k) { return &perSource(0, j, k); };
-  task.finish = [&](int j, int k, const CellSpan&, const float* const* share) {
+  task.finish = [&](int j, int k, const CellSpan&, float* const* share) {
     for (int i = 0; i < solid.size.x; ++i) perSource(i, j, k) = share[0][i] > 0 ? 1 / share[0][i] : 0;
   };
   blurSeparably(task);
@@ -112,8 +111,7 @@ void renewNormalizer(const Grid3<std::uint8_t>& solid, const SymmetricFilter& fi
 void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const BurnSettings& settings,
                   double dt, const Grid3<std::uint8_t>& solid, Grid3<float>& rate, DepositScratch& scratch) {
   const double kernelCells = settings.depositRadius / solid.cellSize;
-  BlurTask task{
-      .size = solid.size, .channels = 1, .filter = depositFilter(kernelCells), .fill = {}, .memory = {}, .finish = {}};
+  BlurTask task{.size = solid.size, .channels = 1, .filter = depositFilter(kernelCells), .fill = {}, .finish = {}};
   const bool solids = hasSolids(solid);
   if (solids) renewNormalizer(solid, task.filter, kernelCells, scratch);
   const DepositPoints points(solid, solids);
@@ -134,9 +132,8 @@ void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt
     for (int i = filled.first; solids && i < filled.end; ++i) cells[i] *= scratch.perSource(i, j, k);
     return filled;
   };
-  task.memory = [&](int, int j, int k) { return &rate(0, j, k); };
   const float perVolume = static_cast<float>(1 / (dt * rate.cellSize * rate.cellSize * rate.cellSize));
-  task.finish = [&](int j, int k, const CellSpan& span, const float* const* mass) {
+  task.finish = [&](int j, int k, const CellSpan& span, float* const* mass) {
     float* row = &rate(0, j, k);
     std::fill(row, row + std::max(0, span.first), 0.f);
     for (int i = span.first; i < span.end; ++i) row[i] = solid(i, j, k) ? 0.f : mass[0][i] * perVolume;

@@ -103,9 +103,10 @@ std::vector<FirePoint> findFirePoints(const GasMedium& gas, int count) {
   std::vector<FirePoint> points;
   std::vector<GlowingBlock> blocks = glowingBlocks(gas);
   if (count > 0) split(blocks, count, points);
-  // A block is no point itself: of a cube the root mean square distance from its middle is half an edge.
-  const auto ofBlock = static_cast<float>(0.5 * gas.blockGlow().cellSize);
-  for (FirePoint& point : points) point.radius = std::hypot(point.radius, ofBlock);
+  // The glow of a cube has a root mean square distance of half an edge from its middle; a cluster of one block would be
+  // a point without extent, infinitely bright where it lies.
+  const auto least = static_cast<float>(gas.blockGlow().cellSize / 2);
+  for (FirePoint& point : points) point.radius = std::max(point.radius, least);
   return points;
 }
 

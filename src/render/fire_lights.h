@@ -11,7 +11,7 @@ namespace brisance {
 struct FirePoint {
   Vec3f position;
   Vec3f intensity;   ///< radiance times area [m2]: at distance r it lights a facing surface with intensity / r^2
-  float radius = 0;  ///< [m] root mean square distance of the glow from `position`
+  float radius = 0;  ///< [m] root mean square distance of the glow from `position`, of half a block at least
 };
 
 /// The share of light that leaves the gas from the middle of each block: the mean over the six directions of the axes.

@@ -65,7 +65,11 @@ RTCRayHit rayHit(const Ray& ray, float far) {
 struct GlassPassed {
   Vec3f passing{1, 1, 1};
   Vec3f opticalDepth{};  ///< sum of absorption times way inside: leaving distances minus entering ones
-  Vec3f light() const { return opticalDepth == Vec3f{} ? passing : passing * beerTransmittance(opticalDepth, 1); }
+  /// A ray through an edge may miss one of two surfaces: glass never adds light for that.
+  Vec3f light() const {
+    if (opticalDepth == Vec3f{}) return passing;
+    return passing * beerTransmittance(max(opticalDepth, Vec3f{}), 1);
+  }
 };
 
 /// Embree hands its context to the filter; ours begins with it.

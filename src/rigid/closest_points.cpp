@@ -43,7 +43,7 @@ class HullOf : public btConvexInternalShape {
 
 }  // namespace
 
-std::optional<ClosestPoints> closestPoints(std::span<const Vec3d> a, std::span<const Vec3d> b, double reach) {
+std::optional<ClosestPoints> closestPoints(std::span<const Vec3d> a, std::span<const Vec3d> b) {
   HullOf hullA(a), hullB(b);
   btVoronoiSimplexSolver simplex;
   btGjkEpaPenetrationDepthSolver overlap;
@@ -51,10 +51,9 @@ std::optional<ClosestPoints> closestPoints(std::span<const Vec3d> a, std::span<c
   btGjkPairDetector::ClosestPointInput input;
   input.m_transformA.setIdentity();
   input.m_transformB.setIdentity();
-  input.m_maximumDistanceSquared = reach * reach;
   btPointCollector found;
   detector.getClosestPoints(input, found, nullptr);
-  if (!found.m_hasResult || !(found.m_distance <= reach)) return std::nullopt;
+  if (!found.m_hasResult) return std::nullopt;
   ClosestPoints closest;
   closest.normal = -fromBullet(found.m_normalOnBInWorld);
   closest.distance = found.m_distance;

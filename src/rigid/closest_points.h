@@ -14,8 +14,8 @@ struct ClosestPoints {
   double distance = 0;  ///< [m] along the normal; below zero: how deep they overlap
 };
 
-/// Of the hulls of points in the same coordinates; nothing where they are farther apart than `reach` [m] or where no
-/// answer was found. Keeps nothing between calls; any thread may call it.
-std::optional<ClosestPoints> closestPoints(std::span<const Vec3d> a, std::span<const Vec3d> b, double reach);
+/// Of the hulls of points in the same coordinates; nothing where no answer was found. Keeps nothing between calls; any
+/// thread may call it.
+std::optional<ClosestPoints> closestPoints(std::span<const Vec3d> a, std::span<const Vec3d> b);
 
 }  // namespace brisance

@@ -4,6 +4,7 @@
 #include "rigid/contacts.h"
 #include "rigid/movers.h"
 #include "rigid/rigid_step.h"
+#include "rigid/sleep.h"
 
 namespace brisance {
 namespace {
@@ -228,20 +229,24 @@ void breakBonds(const std::vector<bool>& isFree, const Unbonded& alone, double d
   }
 }
 
-void stepPart(RigidBodies& bodies, const std::vector<CollisionShape>& shapes, const RigidSettings& settings,
+/// One part of a step. Where it would strike what sleeps, it wakes that, does nothing else and says no: to be asked
+/// again.
+bool stepPart(RigidBodies& bodies, const std::vector<CollisionShape>& shapes, const RigidSettings& settings,
               const std::vector<bool>& isFree, double dt) {
+  const std::vector<bool> moves = awakeBodies(bodies, isFree);
   const std::vector<std::uint32_t> group = bondedGroups(bodies);
   const Contacts* law = std::get_if<Contacts>(&settings.collisions);
   Touching touching;
-  if (law != nullptr) touching = findContacts(bodies, shapes, isFree, group, settings.gravity, dt);
-  const Unbonded before = beforeContacts(bodies, isFree, settings.gravity, dt);
-  const std::vector<Vec3d> places = bodies.position;
-  Movers movers = makeMovers(bodies, group, isFree);
+  if (law != nullptr) touching = findContacts(bodies, shapes, moves, group, settings.gravity, dt);
+  Movers movers = makeMovers(bodies, group, moves);
   for (Mover& mover : movers.of)
     if (mover.inverseMass > 0) mover.velocity += settings.gravity * dt;
   ContactSolver solver(movers.of, movers.number, touching.contacts, touching.skin, law ? *law : Contacts{}, dt);
   beginAsBefore(bodies, shapes, touching.contacts, dt, solver);
   solver.solve();
+  if (wakeStruck(bodies, touching.contacts, solver, moves, settings.gravity, dt)) return false;
+  const Unbonded before = beforeContacts(bodies, moves, settings.gravity, dt);
+  const std::vector<Vec3d> places = bodies.position;
   const std::vector<bool> isPushed = pushed(solver, touching.contacts, movers);
   moveFor(movers, bodies, flight(isPushed, settings.gravity, dt), dt);
   solver.relax();
@@ -249,9 +254,11 @@ void stepPart(RigidBodies& bodies, const std::vector<CollisionShape>& shapes, co
   constexpr double leastBounce = 0.02;  // [m/s]
   solver.bounce(leastBounce + 2 * length(settings.gravity) * dt);
   if (!(settings.gravity == Vec3d{})) settle(movers, isPushed, bodies, shapes, dt);
-  giveVelocities(movers, isFree, bodies);
+  giveVelocities(movers, moves, bodies);
   const bool anyHolds = std::any_of(bodies.holds.begin(), bodies.holds.end(), [](std::uint8_t h) { return h != 0; });
-  if (anyHolds) breakBonds(isFree, withoutBonds(bodies, touching, solver, places, before), dt, bodies);
+  if (anyHolds) breakBonds(moves, withoutBonds(bodies, touching, solver, places, before), dt, bodies);
+  if (!(settings.gravity == Vec3d{})) fallAsleep(bodies, shapes, movers, touching.contacts, solver, moves, dt);
+  return true;
 }
 
 }  // namespace
@@ -260,12 +267,17 @@ void stepColliding(RigidBodies& bodies, const std::vector<CollisionShape>& shape
                    double time, double dt) {
   const std::vector<bool> isFree = freeBodies(bodies, time);
   if (std::none_of(isFree.begin(), isFree.end(), [](bool is) { return is; })) return;
+  bodies.rest.resize(bodies.size());
+  wakePushed(bodies, shapes, settings.gravity, dt);
   int parts = 1;
   if (std::holds_alternative<Contacts>(settings.collisions)) {
-    forgetPassed(bodies, shapes, isFree);
-    parts = partsOf(bodies, shapes, isFree, settings.gravity, dt);
+    const std::vector<bool> moves = awakeBodies(bodies, isFree);
+    forgetPassed(bodies, shapes, moves);
+    parts = partsOf(bodies, shapes, moves, settings.gravity, dt);
   }
-  for (int n = 0; n < parts; ++n) stepPart(bodies, shapes, settings, isFree, dt / parts);
+  for (int n = 0; n < parts; ++n)
+    while (!stepPart(bodies, shapes, settings, isFree, dt / parts)) {
+    }
 }
 
 }  // namespace brisance

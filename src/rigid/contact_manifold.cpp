@@ -60,18 +60,25 @@ std::vector<Vec3d> overFace(const ConvexSolid& solid, const ConvexFace& face, co
   return polygon;
 }
 
-/// Contacts of a face with the other solid; `sign` is 1 where the face is a's.
-bool meetFace(const ConvexSolid& solid, const ConvexFace& face, const ConvexSolid& other, double sign, double reach,
+/// The corner farthest against a direction.
+const Vec3d& farthestAgainst(const ConvexSolid& solid, const Vec3d& direction) {
+  return *std::min_element(solid.points.begin(), solid.points.end(),
+                           [&](const Vec3d& p, const Vec3d& q) { return dot(p, direction) < dot(q, direction); });
+}
+
+/// Contacts of a face with the other solid: its nearest corner, which need not be one of its opposite face, and the
+/// part of that face that lies over this one. `sign` is 1 where the face is a's.
+void meetFace(const ConvexSolid& solid, const ConvexFace& face, const ConvexSolid& other, double sign, double reach,
               std::vector<ContactPoint>& contacts) {
   const double offset = dot(solid.points[face.corners[0]], face.normal);
-  bool any = false;
-  for (const Vec3d& p : overFace(solid, face, other)) {
+  const auto add = [&](const Vec3d& p) {
     const double gap = dot(p, face.normal) - offset;
-    if (gap > reach) continue;
-    contacts.push_back({0, 0, p - face.normal * (gap / 2), face.normal * sign, gap});
-    any = true;
-  }
-  return any;
+    if (gap <= reach) contacts.push_back({0, 0, p - face.normal * (gap / 2), face.normal * sign, gap});
+  };
+  const Vec3d& nearest = farthestAgainst(other, face.normal);
+  const std::vector<Vec3d> over = overFace(solid, face, other);
+  if (std::find(over.begin(), over.end(), nearest) == over.end()) add(nearest);
+  for (const Vec3d& p : over) add(p);
 }
 
 /// Whether the solids meet in a face: no other direction keeps them farther apart.
@@ -79,6 +86,24 @@ bool meetsInFace(const FacePlane& plane, double sign, const ClosestPoints& close
   constexpr double along = 1 - 1e-6, slack = 0.02;
   if (closest.distance > 0) return dot(closest.normal, plane.face->normal) * sign > along;
   return closest.distance <= plane.gap + slack * std::abs(plane.gap);
+}
+
+/// Two solids that meet in an edge or a corner, where faces are almost as near: corners of what these share are
+/// contacts along the same normal. One contact alone, now here, now there, lets thin plates rock on each other for
+/// ever.
+void meetAlong(const ClosestPoints& closest, const ConvexSolid& a, const ConvexSolid& b, double reach,
+               std::vector<ContactPoint>& contacts) {
+  constexpr double almost = 0.95;  // cosine of 18 degrees
+  contacts.push_back({0, 0, (closest.onA + closest.onB) / 2.0, closest.normal, closest.distance});
+  if (a.faces.empty() || b.faces.empty()) return;
+  const ConvexFace& face = facing(a, closest.normal * -1.0);
+  const double cosine = dot(face.normal, closest.normal);
+  if (cosine < almost || dot(facing(b, closest.normal).normal, closest.normal) > -almost) return;
+  const double offset = dot(a.points[face.corners[0]], face.normal);
+  for (const Vec3d& p : overFace(a, face, b)) {
+    const double gap = std::max((dot(p, face.normal) - offset) / cosine, closest.distance);
+    if (gap <= reach) contacts.push_back({0, 0, p - closest.normal * (gap / 2), closest.normal, gap});
+  }
 }
 
 }  // namespace
@@ -90,11 +115,13 @@ void touch(const ConvexSolid& a, const ConvexSolid& b, double reach, std::vector
   const bool faceOfA = ofA.face != nullptr && (ofB.face == nullptr || ofA.gap >= ofB.gap - preferA);
   const FacePlane& plane = faceOfA ? ofA : ofB;
   const double sign = faceOfA ? 1 : -1;
-  const auto closest = closestPoints(a.points, b.points, reach);
-  if (!closest && plane.gap >= 0) return;
+  const auto closest = closestPoints(a.points, b.points);
+  if (closest ? closest->distance > reach : plane.gap >= 0) return;
   const bool inFace = plane.face != nullptr && (!closest || meetsInFace(plane, sign, *closest));
-  if (inFace && meetFace(faceOfA ? a : b, *plane.face, faceOfA ? b : a, sign, reach, contacts)) return;
-  if (closest) contacts.push_back({0, 0, (closest->onA + closest->onB) / 2.0, closest->normal, closest->distance});
+  if (inFace)
+    meetFace(faceOfA ? a : b, *plane.face, faceOfA ? b : a, sign, reach, contacts);
+  else if (closest)
+    meetAlong(*closest, a, b, reach, contacts);
 }
 
 void touch(const SurfaceTriangle& a, const ConvexSolid& b, double reach, std::vector<ContactPoint>& contacts) {

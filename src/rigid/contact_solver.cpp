@@ -131,4 +131,16 @@ Vec3d ContactSolver::impulse(std::size_t contact) const {
   return row.normal * row.pushes + row.tangents[0] * row.rubs[0] + row.tangents[1] * row.rubs[1];
 }
 
+bool ContactSolver::touches(std::size_t contact) const {
+  const Row& row = rows_[contact];
+  return row.gap < row.slack || !(impulse(contact) == Vec3d{});
+}
+
+double ContactSolver::strike(std::size_t contact) const {
+  const Row& row = rows_[contact];
+  const double meeting = std::max(0.0, -row.meeting);
+  const bool meets = row.gap < 2 * meeting * dt_;  // in this step, or, when relax() looks ahead, in the next
+  return std::max(length(impulse(contact)), meets ? (1 + settings_.restitution) * row.share * meeting : 0);
+}
+
 }  // namespace brisance

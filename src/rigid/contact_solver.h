@@ -41,6 +41,10 @@ class ContactSolver {
   std::size_t size() const { return rows_.size(); }
   /// Impulse on b [kg m/s], so far.
   Vec3d impulse(std::size_t contact) const;
+  /// Whether the two press each other, or could if they moved by no more than bodies rest apart.
+  bool touches(std::size_t contact) const;
+  /// At most how hard [kg m/s] the two strike each other, with what the bounce adds.
+  double strike(std::size_t contact) const;
 
  private:
   struct Row {

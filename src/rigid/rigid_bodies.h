@@ -31,6 +31,14 @@ struct BodyBond {
   double strength = 0;  ///< [Pa]
 };
 
+/// How a body lies still.
+struct Rest {
+  Vec3d place;  ///< of its centre of mass, since it lies still [m]
+  Quaternion orientation;
+  double duration = 0;     ///< [s]
+  std::uint64_t heap = 0;  ///< bodies that fell asleep together have one number; 0: awake
+};
+
 struct RigidBodies {
   std::vector<std::string> name;
   std::vector<Vec3d> position;  ///< of the centre of mass [m]
@@ -47,6 +55,7 @@ struct RigidBodies {
   std::vector<std::uint8_t> holds;      ///< per bond; 0: it came loose
   std::vector<BodyPair> passing;        ///< ordered: pass through each other until they come clear
   std::vector<PressingForce> pressing;  ///< in the order of the contacts
+  std::vector<Rest> rest;               ///< one each once bodies have met a step in which they can collide
 
   std::size_t size() const { return position.size(); }
   /// Moves at this time: neither immovable nor held.

@@ -7,7 +7,7 @@
 namespace brisance {
 
 namespace {
-constexpr char magic[16] = "brisance-ckpt-3";
+constexpr char magic[16] = "brisance-ckpt-4";
 
 class Writer {
  public:
@@ -119,6 +119,7 @@ void archive(Archive& a, State& world) {
   a.fixedArray(bodies.holds);
   a.array(bodies.passing);
   a.array(bodies.pressing);
+  a.array(bodies.rest);
   for (auto& look : world.looks) {
     a.value(look.temperature);
     a.value(look.swelling);
@@ -143,6 +144,8 @@ void readCheckpoint(const std::string& bytes, const std::string& fileName, World
   for (const BodyPair& pair : world.bodies.passing)
     if (pair.a >= world.bodies.size() || pair.b >= world.bodies.size())
       reader.refuse("names bodies that are not there");
+  if (!world.bodies.rest.empty() && world.bodies.rest.size() != world.bodies.size())
+    reader.refuse("tells of the rest of other bodies than there are");
   if (!reader.atEnd()) reader.refuse("has bytes left over");
   for (ParticleSet* particles : {&world.particles, &world.sparks.particles, &world.dust.particles})
     forEachField(*particles, [&](const auto& field) {

@@ -6,6 +6,7 @@
 #include "faults/one_line.h"
 #include "frame/exported_files.h"
 #include "frame/gas_file.h"
+#include "frame/point_file.h"
 #include "frame/run_directory.h"
 #include "mesh/mesh_file.h"
 #include "program.h"
@@ -65,6 +66,18 @@ TEST_F(ExportCommand, GltfHasEveryPieceInItsPlace) {
       for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(place.at(axis), body.pose.position[axis], 1e-6);
     }
   EXPECT_EQ(directory_.count(), 1u);
+}
+
+TEST_F(ExportCommand, ParticlesBecomeVdbPointsOfEveryFrame) {
+  const json told = facts({"--to", "vdb-points", "-o", file("points"), "--frames", "2-4:2"});
+  EXPECT_EQ(told["files"], 2);
+  for (const int index : {2, 4}) {
+    const std::string bytes = textOf(directory_ / ("points/particles.000" + std::to_string(index) + ".vdb"));
+    const PointFileSettings settings{
+        {1 / 32.0, 1 / 32.0, 1 / 32.0}, 1 / 16.0, {0.022f, 0.022f, 0.022f, 0.003f, 0.0025f}};
+    EXPECT_EQ(bytes, particlesToVdb(readFrame(run(), index, false).particles, settings));
+  }
+  expectRefusal({"--to", "vdb-points", "-o", file("other"), "--profile", "blender"}, 2, {"--profile"});
 }
 
 TEST_F(ExportCommand, FramesMayBeChosen) {

@@ -265,6 +265,13 @@ TEST(FirePoints, ClustersShareTheLightAboutEvenly) {
     EXPECT_NEAR(point.intensity.x / (all / 5), 1, 0.35);  // whole slices of blocks go together
 }
 
+TEST(FirePoints, OneBlockIsNoPointWithoutExtent) {
+  const GasMedium gas(slab({8, 8, 8}, 4), plainSettings());
+  const std::vector<FirePoint> points = findFirePoints(gas, 4);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_FLOAT_EQ(points[0].radius, 0.4f);  // half of 8 cells of 0.1 m
+}
+
 TEST(Lights, FallWithThePowerOfTheDistance) {
   const std::vector<LightSource> lights = lightSources(
       {PointLight{{0, 2, 0}, {4, 4, 4}, 2}, PointLight{{0, 2, 0}, {4, 4, 4}, 0}, SunLight{{0, -3, 0}, {5, 5, 5}}},

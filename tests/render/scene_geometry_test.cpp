@@ -110,6 +110,18 @@ TEST(Shadow, GlassDimsLightByItsSurfacesAndItsThickness) {
   EXPECT_NEAR(world.geometry().lightPassing(fromInside, 10).y, 0.96 * std::exp(-0.1), rounding);
 }
 
+// One that enters and does not leave: a light inside, or an edge whose other side was missed.
+TEST(Shadow, GlassNeverAddsLight) {
+  Material glass = clearGlass();
+  glass.absorption = {0, 2, 5};
+  const SmallWorld world({paneAt("pane", {0, 0, 0})}, {{"glass", glass}});
+  const Vec3f passing = world.geometry().lightPassing(down(0.1f, 0.2f), 5);  // ends in the pane
+  for (const float channel : {passing.x, passing.y, passing.z}) {
+    EXPECT_LT(channel, 1);
+    EXPECT_GT(channel, 0);
+  }
+}
+
 TEST(TouchingGlass, HasNoSurfaceBetweenItsPieces) {
   const auto touches = [](const std::vector<FrameBody>& bodies, const Ray& ray) {
     Material tinted = clearGlass();

@@ -275,8 +275,8 @@ TEST(World, AnotherSeedGivesAnotherExplosion) {
 
 TEST(World, PiecesThatCollideComeToLieOnTheFloor) {
   SimulationSettings settings = landingScene();
-  settings.frames = 60;
-  const Frame landing = worldAt(settings, 8).capture(), frame = worldAt(settings, 60).capture();
+  settings.frames = 80;
+  const Frame landing = worldAt(settings, 8).capture(), frame = worldAt(settings, 80).capture();
   double fastest = 0, deepest = 0;
   for (const FrameBody& body : landing.bodies) fastest = std::max(fastest, length(body.linearVelocity));
   EXPECT_GT(fastest, .1) << "a checkpoint of frame 7 is taken in the middle of contact";
