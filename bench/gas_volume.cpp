@@ -119,7 +119,8 @@ struct Explosion {
   }
 
   GasSource source() const {
-    return {denseBricks(density, 0.f), denseBricks(temperature, 300.f), denseBricks(flame, 0.f), denseBricks(velocity, Vec3f())};
+    return {denseBricks(density, 0.f), denseBricks(temperature, 300.f), denseBricks(flame, 0.f),
+            denseBricks(velocity, Vec3f())};
   }
   FrameGas sparse() const {
     const GasSource gas = source();

@@ -118,14 +118,17 @@ TEST(IncludeFloors, EveryFloorOfTheTableIsAFolderAndTheOtherWayRound) {
     EXPECT_TRUE(floorOf().contains(entry.path().filename().string())) << entry.path();
 }
 
-TEST(HeavyHeaders, EachStaysInOneSourceFileAndInNoHeader) {
+/// Grids and points are two formats of OpenVDB's, and their headers too much for one file.
+std::size_t filesOf(const std::string& heavyHeader) { return heavyHeader == "openvdb/" ? 2 : 1; }
+
+TEST(HeavyHeaders, EachStaysInItsSourceFileAndInNoHeader) {
   const std::vector<Include> all = includesOfTheHouse();
   for (const std::string& start : heavyHeaders()) {
     std::map<std::string, int> files;
     for (const Include& include : all)
       if (include.included.starts_with(start)) ++files[include.file];
-    EXPECT_LE(files.size(), 1u) << start << " is included by " << files.begin()->first << " and "
-                                << files.rbegin()->first;
+    EXPECT_LE(files.size(), filesOf(start))
+        << start << " is included by " << files.begin()->first << " and " << files.rbegin()->first;
     for (const auto& [file, count] : files)
       EXPECT_TRUE(file.ends_with(".cpp")) << file << " is a header and includes " << start;
   }
