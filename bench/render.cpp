@@ -129,7 +129,7 @@ const GasMedium& explosionGas() {
 void marchGas(const std::vector<GasPath>& paths, std::vector<GasPassage>& passages) {
   const GasMedium& gas = explosionGas();
   parallelFor(0, std::ssize(paths), 1024, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t n = first; n < last; ++n) passages[n] = gas.march(paths[n]);
+    gas.march(std::span(paths).subspan(first, last - first), std::span(passages).subspan(first, last - first));
   });
 }
 

@@ -28,7 +28,7 @@ brisance_floor(fluid USES grid mesh)
 brisance_floor(particles USES grid mesh)
 # Nobody asks for errno or floating-point traps there: without them square roots and choices become vectors. No bit changes.
 foreach(source particles/particle_step fluid/advection fluid/closing_sweep fluid/diffusion fluid/flow_findings fluid/ghost_rows fluid/projection fluid/scalar_sweep
-    fluid/semi_lagrangian fluid/temperature fluid/velocity_sweep fluid/vorticity render/gas_bricks render/gas_medium render/gas_tracking)
+    fluid/semi_lagrangian fluid/temperature fluid/velocity_sweep fluid/vorticity render/gas_bricks render/gas_medium render/gas_packet render/gas_tracking)
   set_source_files_properties(${CMAKE_SOURCE_DIR}/src/${source}.cpp PROPERTIES
     COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
 endforeach()

@@ -65,6 +65,7 @@ endfunction()
 
 if(Python_FOUND)
   brisance_unittest(Farm farm/farm_test.py "Farm|unittest.TestCase")
+  set_tests_properties(Farm.Slurm PROPERTIES TIMEOUT 3600)  # with the long test, a whole film twice
   brisance_unittest(Shell shell/shell_test.py unittest.TestCase)
   brisance_unittest(Docs docs/site_test.py unittest.TestCase)
   brisance_unittest(Docs docs/tutorial_test.py unittest.TestCase)

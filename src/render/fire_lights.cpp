@@ -9,7 +9,7 @@ namespace {
 
 constexpr Vec3d luminanceWeights{0.2126, 0.7152, 0.0722};
 
-/// Adds to `escape` the share of light that leaves the gas from each block along an axis, both ways.
+/// Adds to `escape` a sixth of the share of light that leaves the gas from each block along an axis, both ways.
 void addEscape(const Grid3<float>& extinction, int axis, Grid3<float>& escape) {
   const Vec3i n = extinction.size;
   const std::int64_t stride = extinction.stride(axis);
@@ -22,7 +22,7 @@ void addEscape(const Grid3<float>& extinction, int axis, Grid3<float>& escape) {
     for (int i = 0; i < length; ++i) {
       const std::int64_t at = from + i * step;
       const float own = extinction.values[at] * size;
-      escape.values[at] += std::exp(-(depth + 0.5f * own));
+      escape.values[at] += std::exp(-(depth + 0.5f * own)) / 6;
       depth += own;
     }
   };
@@ -79,16 +79,20 @@ void split(std::span<GlowingBlock> blocks, int count, std::vector<FirePoint>& po
 
 }  // namespace
 
+Grid3<float> escapeOf(const Grid3<float>& extinction) {
+  Grid3<float> escape(extinction.size, extinction.origin, extinction.cellSize);
+  for (int axis = 0; axis < 3; ++axis) addEscape(extinction, axis, escape);
+  return escape;
+}
+
 std::vector<GlowingBlock> glowingBlocks(const GasMedium& gas) {
   const Grid3<Vec3f>& glow = gas.blockGlow();
-  Grid3<float> escape(glow.size, glow.origin, glow.cellSize);
-  for (int axis = 0; axis < 3; ++axis) addEscape(gas.blockExtinction(), axis, escape);
-  constexpr double directions = 6;
+  const Grid3<float> escape = escapeOf(gas.blockExtinction());
   std::vector<GlowingBlock> blocks;
   for (int k = 0; k < glow.size.z; ++k)
     for (int j = 0; j < glow.size.y; ++j)
       for (int i = 0; i < glow.size.x; ++i) {
-        const Vec3d intensity = Vec3d(glow(i, j, k)) * (escape(i, j, k) / directions);
+        const Vec3d intensity = Vec3d(glow(i, j, k)) * escape(i, j, k);
         const double luminance = dot(luminanceWeights, intensity);
         if (luminance > 0) blocks.push_back({{i, j, k}, glow.position(i, j, k), intensity, luminance});
       }

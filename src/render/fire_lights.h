@@ -14,6 +14,10 @@ struct FirePoint {
   float radius = 0;  ///< [m] root mean square distance of the glow from `position`, of half a block at least
 };
 
+/// The share of light that leaves the gas from the middle of each block: the mean over the six directions of the axes.
+/// `extinction` [1/m].
+Grid3<float> escapeOf(const Grid3<float>& extinction);
+
 /// A block of the gas and what of its glow leaves the gas.
 struct GlowingBlock {
   Vec3i block;

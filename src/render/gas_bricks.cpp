@@ -14,7 +14,7 @@ void BrickMemory::reserve(std::int64_t count) {
   if (room >= count) return;
   bricks.reset();
   room = count + count / 2;  // a growing cloud needs more in the next frame; untouched pages cost nothing
-  bricks = std::make_unique_for_overwrite<GasBrick[]>(static_cast<std::size_t>(room));
+  bricks.reset(Allocator().allocate(static_cast<std::size_t>(room)));
 }
 
 }  // namespace brisance

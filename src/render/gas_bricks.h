@@ -1,11 +1,14 @@
 // The samples of the gas, kept only where there is gas.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <vector>
 
+#include "base/aligned.h"
 #include "base/math.h"
 
 namespace brisance {
@@ -20,32 +23,42 @@ struct GasSample {
   }  ///< I of equation A.4, where there is density
 };
 
-/// The samples of a block of 8^3 cells and the first ones of the next block on each upper side, so that a place in the
-/// block reads one brick: 16-bit whole numbers times a scale of the brick's own.
-struct GasBrick {
-  static constexpr int cells = 8, edge = cells + 1, count = edge * edge * edge;
+/// Numbers >= 0 of a sample in 16 bits: six of exponent and ten of fraction, so that shifted they are the bits of a
+/// float times `unit`. Relative error at most 1/2048 from `smallest` on; below it 0, above `largest` that.
+struct GasCode {
+  static constexpr int shift = 13;
+  static constexpr float unit = 0x1p95f, smallest = 0x1p-24f, largest = 0x1p31f;
 
-  GasSample::Vector scale;
-  std::int32_t block;              ///< its number among all blocks
-  std::uint16_t codes[4 * count];  ///< the four of a sample after one another
+  static std::uint32_t of(float value) {
+    const float scaled = (value >= smallest ? std::min(value, largest) : 0) * (1 / unit);  // what is no number: 0
+    return (std::bit_cast<std::uint32_t>(scaled) + (1u << (shift - 1))) >> shift;
+  }
+  /// Of the lower and the upper code of a word, times 1 / unit.
+  static float lower(std::uint32_t word) { return std::bit_cast<float>((word & 0xffffu) << shift); }
+  static float upper(std::uint32_t word) { return std::bit_cast<float>(word >> 16 << shift); }
+};
+
+/// The samples of a block of 8^3 cells and the first ones of the next block on each upper side, so that a place in the
+/// block reads one brick.
+struct alignas(64) GasBrick {
+  static constexpr int cells = 8, edge = cells + 1, count = edge * edge * edge;
+  static constexpr int wordsOfSample = 2;
+
+  std::uint32_t words[wordsOfSample * count];  ///< two codes each: red and green, blue and density
+  std::int32_t block;                          ///< its number among all blocks
 
   static constexpr int index(int x, int y, int z) { return x + edge * (y + edge * z); }
-  /// Stores samples, to 1/131070 of the largest of the brick.
   void encode(const GasSample* samples) {
-    constexpr float largestCode = 65535;
-    constexpr float least = 1e-30f;  // what is darker has no reciprocal that a float holds
-    GasSample::Vector largest{}, none{};
-    for (int n = 0; n < count; ++n) largest = samples[n].values > largest ? samples[n].values : largest;
-    scale = largest / largestCode;
-    const GasSample::Vector perScale = largest > least ? largestCode / largest : none;
-    for (int n = 0; n < count; ++n)
-      for (int c = 0; c < 4; ++c)
-        codes[4 * n + c] =
-            static_cast<std::uint16_t>(static_cast<std::int32_t>(samples[n].values[c] * perScale[c] + 0.5f));
+    const auto* values = reinterpret_cast<const float*>(samples);
+    for (int n = 0; n < wordsOfSample * count; ++n)
+      words[n] = GasCode::of(values[2 * n]) | GasCode::of(values[2 * n + 1]) << 16;
   }
   void decode(GasSample* samples) const {
-    for (int n = 0; n < count; ++n)
-      for (int c = 0; c < 4; ++c) samples[n].values[c] = static_cast<float>(codes[4 * n + c]) * scale[c];
+    auto* values = reinterpret_cast<float*>(samples);
+    for (int n = 0; n < wordsOfSample * count; ++n) {
+      values[2 * n] = GasCode::lower(words[n]) * GasCode::unit;
+      values[2 * n + 1] = GasCode::upper(words[n]) * GasCode::unit;
+    }
   }
 
   /// Between the eight samples from number `first` on; shares 0 .. 1 along each axis. Two neighbours in x, near and far
@@ -60,7 +73,7 @@ struct GasBrick {
     near += (far - near) * z;
     const GasSample::Vector left = __builtin_shufflevector(near, near, 0, 1, 2, 3),
                             right = __builtin_shufflevector(near, near, 4, 5, 6, 7);
-    return {(left + (right - left) * x) * scale};
+    return {(left + (right - left) * x) * GasCode::unit};
   }
   /// The same at a place in cells from the brick's first sample, cut to the brick.
   GasSample at(const Vec3f& cellsIn) const;
@@ -69,21 +82,28 @@ struct GasBrick {
   using Pair [[gnu::vector_size(32)]] = float;
   using Four [[gnu::vector_size(64)]] = float;
   using Codes [[gnu::vector_size(16)]] = std::uint16_t;
+  using Bits [[gnu::vector_size(64)]] = std::uint32_t;
   using MoreCodes [[gnu::vector_size(32)]] = std::uint16_t;
 
   /// By reference, since without wide vectors no function may return one.
   [[gnu::always_inline]] void read(int first, Four& four) const {
     Codes near, far;
-    std::memcpy(&near, codes + 4 * first, sizeof near);
-    std::memcpy(&far, codes + 4 * (first + edge * edge), sizeof far);
+    std::memcpy(&near, words + wordsOfSample * first, sizeof near);
+    std::memcpy(&far, words + wordsOfSample * (first + edge * edge), sizeof far);
     const MoreCodes both = __builtin_shufflevector(near, far, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    four = __builtin_convertvector(both, Four);
+    const Bits bits = __builtin_convertvector(both, Bits) << GasCode::shift;
+    four = reinterpret_cast<Four>(bits);
   }
 };
 
-/// Room for bricks, used again from frame to frame: fresh pages cost more time than the samples in them.
+/// Room for bricks, used again from frame to frame and in huge pages: fresh small ones cost more time than the samples
+/// in them.
 struct BrickMemory {
-  std::unique_ptr<GasBrick[]> bricks;
+  using Allocator = CacheLineAllocator<GasBrick>;
+  struct Release {
+    void operator()(GasBrick* bricks) const { Allocator().deallocate(bricks, 0); }
+  };
+  std::unique_ptr<GasBrick[], Release> bricks;
   std::int64_t room = 0;
   /// Makes room for `count`; what was held is lost when it has to grow.
   void reserve(std::int64_t count);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "render/fire_lights.h"
 #include "render/gas_medium.h"
 #include "render/lights.h"
 
@@ -24,15 +25,8 @@ bool isRead(const Grid3<float>& largest, int i, int j, int k) {
 }  // namespace
 
 /// Light scattered by gas comes from all around: I_s counts light from one side, so lights count by `isotropicShare`.
-Vec3f GasMedium::arriving(const Vec3f& place, const Vec3f& ambientLight, const std::vector<LightSource>& lights) const {
-  constexpr float far = 1e6f;  // [m]
-  float openness = 0;
-  for (int side = 0; side < 6; ++side) {
-    Vec3f direction;
-    direction[side / 2] = side % 2 ? 1.0f : -1.0f;
-    openness += roughTransmittance({place, direction, 0, far}) / 6;
-  }
-  Vec3f sum = ambientLight * openness;
+Vec3f GasMedium::arriving(const Vec3f& place, const std::vector<LightSource>& lights) const {
+  Vec3f sum;
   for (const LightSource& light : lights) {
     const ArrivingLight at = light.at(place);
     sum += at.intensity * (isotropicShare * roughTransmittance({place, at.toLight, 0, at.distance}));
@@ -41,15 +35,15 @@ Vec3f GasMedium::arriving(const Vec3f& place, const Vec3f& ambientLight, const s
 }
 
 void GasMedium::illuminate(const Vec3f& ambientLight, const std::vector<LightSource>& lights) {
-  const Grid3<float>& largest = blockLargest_;
+  const Grid3<float>&largest = blockLargest_, openness = escapeOf(blockExtinction_);
   parallelFor(0, static_cast<std::int64_t>(largest.size.y) * largest.size.z, 1,
               [&](std::int64_t first, std::int64_t last) {
                 for (std::int64_t row = first; row < last; ++row)
                   for (int i = 0; i < largest.size.x; ++i) {
                     const int j = static_cast<int>(row % largest.size.y), k = static_cast<int>(row / largest.size.y);
                     if (isRead(largest, i, j, k))
-                      blockScattered_(i, j, k) =
-                          optics_.scattered(arriving(Vec3f(largest.position(i, j, k)), ambientLight, lights));
+                      blockScattered_(i, j, k) = optics_.scattered(ambientLight * openness(i, j, k) +
+                                                                   arriving(Vec3f(largest.position(i, j, k)), lights));
                   }
               });
   bakeScattered();

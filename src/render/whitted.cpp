@@ -47,7 +47,8 @@ class Tracer {
   void light(std::span<const Travel> travels, std::span<const FoundTriangle> found, std::span<Vec3f> light) const;
 
  private:
-  GasPassage throughGas(const Travel& travel, const FoundTriangle& found) const;
+  template <int room>
+  void throughGas(std::span<const Travel> travels, std::span<const FoundTriangle> found, GasPassage* passages) const;
   bool isGlass(const SurfaceHit& hit) const { return world_.materials[hit.material].settings.glass; }
   LitPlace opaquePlace(const Travel& travel, const SurfaceHit& hit) const;
   Vec3f opaqueLight(const Travel& travel, const SurfaceHit& hit, const Vec3f& lit) const;
@@ -71,10 +72,18 @@ Vec3f Tracer::light(const Travel& travel) const {
   return sum;
 }
 
-GasPassage Tracer::throughGas(const Travel& travel, const FoundTriangle& found) const {
-  const float far = found.isNone() ? std::numeric_limits<float>::max() : found.distance;
-  return world_.gas ? world_.gas->march({travel.ray.origin, travel.ray.direction, travel.ray.near, far, travel.phase})
-                    : GasPassage{};
+template <int room>
+void Tracer::throughGas(std::span<const Travel> travels, std::span<const FoundTriangle> found,
+                        GasPassage* passages) const {
+  if (!world_.gas) return;
+  GasPath paths[room];
+  for (std::size_t n = 0; n < travels.size(); ++n) {
+    const Ray& ray = travels[n].ray;
+    const float far = found[n].isNone() ? std::numeric_limits<float>::max() : found[n].distance;
+    paths[n] = {ray.origin, ray.direction, ray.near, far, travels[n].phase};
+  }
+  if (travels.size() == 1) return void(*passages = world_.gas->march(paths[0]));
+  world_.gas->march({paths, travels.size()}, {passages, travels.size()});
 }
 
 /// A ray that has come to a surface.
@@ -106,8 +115,10 @@ void Tracer::light(std::span<const Travel> travels, std::span<const FoundTriangl
                    std::span<Vec3f> light) const {
   Some<Arrived, room> arrived;
   Some<LitPlace, room> places;
+  GasPassage passages[room];
+  throughGas<room>(travels, found, passages);
   for (std::size_t n = 0; n < travels.size(); ++n) {
-    const GasPassage gas = throughGas(travels[n], found[n]);
+    const GasPassage& gas = passages[n];
     light[n] = gas.light;
     if (gas.transmittance == 0) continue;
     if (found[n].isNone()) {

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import tempfile
@@ -66,10 +67,10 @@ class Farm(unittest.TestCase):
         self.scene.write_text(SCENE)
         self.run_ = self.folder / "a run"
 
-    def expect_pixels_of_one_machine(self):
+    def expect_pixels_of_one_machine(self, frames=FRAMES):
         alone = self.folder / "alone"
         self.assertEqual(brisance("run", self.scene, "-o", alone, "--quiet").returncode, 0)
-        for frame in range(1, FRAMES + 1):
+        for frame in range(1, frames + 1):
             name = f"images/frame.{frame:04}.png"
             self.assertEqual((self.run_ / name).read_bytes(), (alone / name).read_bytes(), name)
         self.assertTrue((self.run_ / "film.mp4").exists())
@@ -180,6 +181,21 @@ class Slurm(Farm):
         self.assertTrue((self.run_ / "farm" / "render.2.sh").exists())
         self.assertFalse((self.run_ / "farm" / "encode.1.log").exists())  # was given up for the second round's
         self.expect_pixels_of_one_machine()
+
+    @unittest.skipUnless(os.environ.get("BRISANCE_LONG_TESTS"), "takes minutes: BRISANCE_LONG_TESTS=1")
+    def test_the_window_film_with_a_task_killed_has_the_pixels_of_one_machine(self):
+        self.scene = pathlib.Path(__file__).parents[2] / "scenes" / "window.toml"
+        frames = int(re.search(r"^frames = (\d+)$", self.scene.read_text(), re.MULTILINE)[1])
+        done = brisance("farm", self.run_, "--engine", "slurm", "--scene", self.scene, "--chunk", "10",
+                        "--partition", "main", environment=self.cluster.environment)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertTrue(killed(self.run_, "31-40", 1200))
+        film = self.run_ / "film.mp4"
+        ended = self.cluster.wait_until(
+            lambda: film.exists() and not self.cluster.ask("squeue", "--noheader"), 1800)
+        self.assertTrue(ended, self.logs() + self.cluster.ask("squeue"))
+        self.assertRegex((self.run_ / "farm" / "check.1.log").read_text(), r"missing pictures: .*; submitted again")
+        self.expect_pixels_of_one_machine(frames)
 
     def logs(self):
         return "".join(f"{log.name}: {log.read_text()}\n" for log in sorted((self.run_ / "farm").glob("*.log")))

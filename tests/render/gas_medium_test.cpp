@@ -66,6 +66,61 @@ TEST(GasMedium, PartsOfAWayJoinToTheWhole) {
   }
 }
 
+// Ways of all kinds, some more than a packet: through the gas, beside it, along an axis, cut before, in and behind it.
+TEST(GasMedium, WaysSideBySideSeeWhatEachSeesAlone) {
+  ParticleVolume volume = slab({40, 24, 32}, 0);
+  for (int k = 0; k < 32; ++k)
+    for (int j = 0; j < 24; ++j)
+      for (int i = 0; i < 40; ++i) {
+        const double wave = std::sin(0.4 * i) * std::cos(0.3 * j) + 0.2 * std::sin(0.5 * k);
+        volume.density(i, j, k) = i / 8 == 2 ? 0 : static_cast<float>(std::max(0.0, 4 * wave));
+        volume.colour(i, j, k) = {1, 0.1f * static_cast<float>(k), 0.5f};
+      }
+  const GasMedium gas(volume, plainSettings());
+  std::vector<GasPath> paths{alongX(), {{2, 5, 1}, {0, 1, 0}, 0, 100, 0.1f}, {{2, -1, 1}, {0, 1, 0}, 1.3f, 2.2f, 0.9f}};
+  for (int n = 0; n < 50; ++n) {
+    const Vec3f from(-2 + 0.1f * static_cast<float>(n), -3, 0.3f * static_cast<float>(n % 11));
+    paths.push_back({from, normalized(Vec3f(1, 1.2f, 1.6f) - from), 0.02f * static_cast<float>(n),
+                     4.5f + 0.9f * static_cast<float>(n % 7), 0.02f * static_cast<float>(n)});
+  }
+  std::vector<GasPassage> passages(paths.size());
+  gas.march(paths, passages);
+  int inGas = 0;
+  for (std::size_t n = 0; n < paths.size(); ++n) {
+    const GasPassage alone = gas.march(paths[n]);
+    inGas += alone.transmittance < 0.95f;
+    EXPECT_NEAR(passages[n].transmittance, alone.transmittance, rounding) << n;
+    EXPECT_NEAR(passages[n].light.x, alone.light.x, rounding) << n;
+    EXPECT_NEAR(passages[n].light.y, alone.light.y, 3 * rounding) << n;
+  }
+  EXPECT_GT(inGas, 15);
+}
+
+TEST(GasBrick, CodesKeepTenBitsOfTheFraction) {
+  for (const float value : {1e-6f, 0.0123f, 1.0f, 3.14159f, 8e5f}) {
+    const std::uint32_t word = GasCode::of(value) | GasCode::of(2 * value) << 16;
+    EXPECT_NEAR(GasCode::lower(word) * GasCode::unit, value, value / 2048);
+    EXPECT_NEAR(GasCode::upper(word) * GasCode::unit, 2 * value, value / 1024);
+  }
+  EXPECT_EQ(GasCode::of(0), 0u);
+  EXPECT_EQ(GasCode::of(1e-9f), 0u);
+  EXPECT_EQ(GasCode::of(-1), 0u);
+  EXPECT_EQ(GasCode::of(std::numeric_limits<float>::quiet_NaN()), 0u);
+  EXPECT_NEAR(GasCode::lower(GasCode::of(1e30f)) * GasCode::unit / GasCode::largest, 1, 1e-3);
+}
+
+// As many fire points as blocks: each lies in the middle of one, which it lights too.
+TEST(GasMedium, FireInTheMiddleOfABlockLightsItFinitely) {
+  VolumeSettings settings = plainSettings();
+  settings.smokeColour = {0.5f, 0.5f, 0.5f};
+  settings.emission = 1;
+  GasMedium gas(slab({8, 8, 8}, 2), settings);
+  gas.illuminate({}, lightSources({FireLight{.strength = 1, .lights = 8}}, &gas));
+  const GasPassage passage = gas.march({{-5, 0.41f, 0.37f}, {1, 0, 0}, 0, 100, 0.5f});
+  EXPECT_GT(passage.light.x, 1 - passage.transmittance);
+  EXPECT_LT(passage.light.x, 3);
+}
+
 TEST(GasMedium, WaysBesideTheGasAreFree) {
   const GasMedium gas(slab({16, 16, 16}, 2), plainSettings());
   GasPath beside = alongX();
