@@ -50,7 +50,7 @@ void fastPoisson(benchmark::State& state, int cells, FaceKind kind, bool solids,
   const ThreadLimit limit(threads);
   const Problem problem = problemOf(cells, kind, solids);
   const BoxPoisson box(problem.settings.cells, problem.settings.faces);
-  const SolidSurface surface = solids ? findSurface(problem.solid, box) : SolidSurface{};
+  const SolidFaces surface = solids ? findSurface(problem.solid, box) : SolidFaces{};
   CellField work(box.layout());
   SurfaceVectors vectors;
   measure(state, problem, threadCount(), [&](CellField& x) {
@@ -68,7 +68,7 @@ void multigrid(benchmark::State& state, int cells, FaceKind kind, bool solids) {
 void surfaceSearch(benchmark::State& state, int cells) {
   const Problem problem = problemOf(cells, FaceKind::open, true);
   const BoxPoisson box(problem.settings.cells, problem.settings.faces);
-  SolidSurface surface;
+  SolidFaces surface;
   for (auto _ : state) surface = findSurface(problem.solid, box);
   state.counters["cells"] = static_cast<double>(surface.cell.size());
   state.counters["threads"] = threadCount();

@@ -2,27 +2,22 @@
 
 namespace brisance::python {
 
-namespace {
-constexpr std::chrono::milliseconds patience{100};  // a thread that wants the lock may wait some for it
-}
+namespace py = pybind11;
 
-StopRequested Interruption::question() {
-  return [this] { return asked(); };
-}
-
-/// Handlers run on the caller's thread alone, as Python wants it; what they raise waits there for raise().
-bool Interruption::asked() {
-  if (stopped_ || std::this_thread::get_id() != caller_) return stopped_;
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < patience) return false;
-  last_ = now;
-  const pybind11::gil_scoped_acquire lock;
-  if (PyErr_CheckSignals() != 0) stopped_ = true;
-  return stopped_;
-}
-
-void Interruption::raise() const {
-  if (stopped_) throw pybind11::error_already_set();
+std::optional<py::error_already_set> waitFor(const std::function<bool(std::chrono::milliseconds)>& hasEnded,
+                                             Cancellation& cancellation) {
+  constexpr std::chrono::milliseconds patience{50};
+  const auto endsMeanwhile = [&] {
+    const py::gil_scoped_release others;
+    return hasEnded(patience);
+  };
+  std::optional<py::error_already_set> raised;
+  while (!endsMeanwhile()) {
+    if (raised || PyErr_CheckSignals() == 0) continue;
+    raised.emplace();
+    cancellation.request();
+  }
+  return raised;
 }
 
 }  // namespace brisance::python

@@ -1,30 +1,35 @@
-// Ctrl-C while the module works: Python's own handlers run, and what they raise ends the work.
+// Ctrl-C while the module works: Python's own handlers run, and what they raise cuts the work short.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
-#include <atomic>
-#include <chrono>
-#include <thread>
+#include <future>
+#include <optional>
+#include <type_traits>
 
+#include "base/cancellation.h"
 #include "base/progress.h"
 
 namespace brisance::python {
 
-/// Of one call into the module. Made on the thread that calls, which holds the interpreter's lock then.
-class Interruption {
- public:
-  Interruption() : caller_(std::this_thread::get_id()) {}
-  /// For the work, without the lock, from any thread; lives no longer than this.
-  StopRequested question();
-  /// Raises what a handler raised, if one did. With the lock.
-  void raise() const;
+/// Twenty times a second, until the work has ended: gives the interpreter's lock to others, and lets handlers of
+/// signals run, which Python wants on its main thread. Once one raises, asks the work to end. Returns what was raised.
+std::optional<pybind11::error_already_set> waitFor(const std::function<bool(std::chrono::milliseconds)>& hasEnded,
+                                                   Cancellation& cancellation);
 
- private:
-  bool asked();
-  std::thread::id caller_;
-  std::chrono::steady_clock::time_point last_{};
-  std::atomic<bool> stopped_ = false;
-};
+/// Does `work` on a thread of its own, without the interpreter's lock. Called with it. Raises what a handler raised,
+/// also where the work came to its end nonetheless.
+template <class Work>
+std::invoke_result_t<const Work&> interruptibly(const Work& work) {
+  Cancellation cancellation;
+  auto result = std::async(std::launch::async, [&] {
+    const CancellableWork cancellable(&cancellation);
+    return work();
+  });
+  const auto raised = waitFor(
+      [&](std::chrono::milliseconds time) { return result.wait_for(time) == std::future_status::ready; }, cancellation);
+  if (raised) throw *raised;
+  return result.get();
+}
 
 }  // namespace brisance::python

@@ -5,6 +5,7 @@
 #include "arrays.h"
 #include "base/check.h"
 #include "bindings.h"
+#include "interruption.h"
 #include "mesh/mass_properties.h"
 #include "mesh/mesh_file.h"
 #include "simulation/make_bodies.h"
@@ -95,8 +96,8 @@ std::shared_ptr<Broken> fractured(const Mesh& mesh, std::uint64_t seed, const py
   py::list bodies;
   bodies.append(body);
   const Scene scene = sceneOf(treeOfDictionary(py::dict(py::arg("bodies") = bodies), "."));
-  const py::gil_scoped_release others;
-  return std::make_shared<Broken>(broken(breakBody(scene.simulation.bodies.front(), seed)));
+  return interruptibly(
+      [&] { return std::make_shared<Broken>(broken(breakBody(scene.simulation.bodies.front(), seed))); });
 }
 
 }  // namespace
@@ -136,10 +137,11 @@ void bindMeshes(py::module_& module) {
       .def_property_readonly(
           "piece_of_triangle", [](const std::shared_ptr<Broken>& b) { return viewOf(b->pieceOfTriangle, b); },
           "(m) int32: the piece of each triangle of a mesh cut along its own triangles, else empty; a view.");
-  module.def("fracture", &fractured, py::arg("mesh"), py::arg("seed") = 1,
-             "Break a mesh. The other arguments are the keys of a scene's table bodies.fracture: pieces=16,\n"
-             "method=\"voronoi\" or method={\"type\": \"curvature\", ...}, solid=True ... Messages name them as\n"
-             "bodies.mesh.fracture.KEY.");
+  module.def(
+      "fracture", &fractured, py::arg("mesh"), py::arg("seed") = 1,
+      "Break a mesh. Ctrl-C cuts it. The other arguments are the keys of a scene's table bodies.fracture: pieces=16,\n"
+      "method=\"voronoi\" or method={\"type\": \"curvature\", ...}, solid=True ... Messages name them as\n"
+      "bodies.mesh.fracture.KEY.");
 }
 
 }  // namespace brisance::python

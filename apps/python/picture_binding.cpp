@@ -32,16 +32,10 @@ Scene sceneWith(const SceneHandle& scene, const PictureWish& wish) {
 DrawnPicture draw(const SceneHandle& handle, const Scene& scene, const Frame& frame) {
   const double fps = scene.film.fps;
   const PictureTime time{(frame.index - 1) / fps, 1 / fps, scene.film.timeScale};
-  Interruption interruption;
-  DrawnPicture drawn;
-  try {
-    const py::gil_scoped_release others;
+  return interruptibly([&] {
     RenderScratch scratch;
-    drawn = drawFilmFrame(frame, scene.render, *handle.assets(), time, scratch, interruption.question());
-  } catch (const Interrupted&) {
-    interruption.raise();
-  }
-  return drawn;
+    return drawFilmFrame(frame, scene.render, *handle.assets(), time, scratch, isCancelled);
+  });
 }
 
 py::array withAlpha(const Image& light, const std::vector<float>& alpha) {

@@ -136,10 +136,11 @@ void bindWorlds(py::module_& module) {
   bindParticles(module);
   py::class_<WorldHandle, WorldPointer>(module, "World", "Everything of a scene that moves, at a moment.")
       .def(py::init<std::shared_ptr<SceneHandle>>(), py::arg("scene"),
-           "Breaks the scene's bodies and lays out gas and particles; this is frame 1.")
+           "Breaks the scene's bodies and lays out gas and particles; this is frame 1. Ctrl-C cuts it.")
       .def("step", &WorldHandle::step,
-           "Simulate one frame. Other threads run meanwhile. After Ctrl-C the next step goes on where this one was\n"
-           "stopped, to the same numbers. Raises UnstableError.")
+           "Simulate one frame. Other threads run meanwhile. Ctrl-C cuts it in its middle; the world is then what it "
+           "was\n"
+           "before the call. Raises UnstableError.")
       .def(
           "run", &run, py::arg("callback") = py::none(), py::arg("last_frame") = py::none(),
           "Step up to a frame, by default the scene's last, and call `callback(world)` after each step; it may return\n"

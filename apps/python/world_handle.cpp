@@ -7,8 +7,7 @@ namespace brisance::python {
 namespace {
 
 World worldOf(const SimulationSettings& settings) {
-  const py::gil_scoped_release others;
-  return World(settings);
+  return interruptibly([&] { return World(settings); });
 }
 
 }  // namespace
@@ -45,18 +44,12 @@ void WorldHandle::keepLoans() {
 void WorldHandle::step() {
   const Work work(*this);
   keepLoans();
-  Interruption interruption;
-  {
-    const py::gil_scoped_release others;
-    world_.advance(interruption.question());
-  }
-  interruption.raise();
+  interruptibly([&] { world_.advanceOrStay(); });
 }
 
 std::shared_ptr<Frame> WorldHandle::capture() {
   const Work work(*this);
-  const py::gil_scoped_release others;
-  return std::make_shared<Frame>(world_.capture());
+  return interruptibly([&] { return std::make_shared<Frame>(world_.capture()); });
 }
 
 }  // namespace brisance::python

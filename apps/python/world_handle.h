@@ -39,7 +39,8 @@ class WorldHandle : public std::enable_shared_from_this<WorldHandle> {
  public:
   explicit WorldHandle(std::shared_ptr<SceneHandle> scene);
 
-  /// One frame. Raises what a signal's handler raised; the next call then goes on in the middle of the frame.
+  /// One frame. Raises what a signal's handler raised; the world is then what it was before the call, or, where the
+  /// frame came to its end first, one frame on.
   void step();
   std::shared_ptr<Frame> capture();
   const SceneHandle& scene() const { return *scene_; }

@@ -6,14 +6,26 @@
 
 #include <algorithm>
 
+#include "base/cancellation.h"
+
 namespace brisance {
 
 void parallelFor(std::int64_t begin, std::int64_t end, std::int64_t grain,
                  const std::function<void(std::int64_t, std::int64_t)>& body) {
   if (begin >= end) return;
+  throwIfCancelled();
   if (end - begin <= grain) return body(begin, end);
-  tbb::parallel_for(tbb::blocked_range<std::int64_t>(begin, end, grain),
-                    [&](const tbb::blocked_range<std::int64_t>& range) { body(range.begin(), range.end()); });
+  const Cancellation* cancellation = cancellationAtHand();
+  // A loop inside another is not ended, as if it were done, by an exception in the other's pieces.
+  tbb::task_group_context own(tbb::task_group_context::isolated);
+  tbb::parallel_for(
+      tbb::blocked_range<std::int64_t>(begin, end, grain),
+      [&](const tbb::blocked_range<std::int64_t>& range) {
+        const CancellableWork work(cancellation);
+        throwIfCancelled();
+        body(range.begin(), range.end());
+      },
+      own);
 }
 
 namespace {

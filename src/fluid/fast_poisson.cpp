@@ -103,7 +103,7 @@ void mark(const BoxPoisson& box, std::int64_t place, SparseRegion& region) {
 /// Solutions of the empty box for sources on the surface.
 class SurfacePreconditioner {
  public:
-  SurfacePreconditioner(const BoxPoisson& box, const SolidSurface& surface, CellField& work)
+  SurfacePreconditioner(const BoxPoisson& box, const SolidFaces& surface, CellField& work)
       : box_(box), surface_(surface), work_(work) {}
 
   void operator()(const std::vector<double>& sources) {
@@ -117,12 +117,12 @@ class SurfacePreconditioner {
 
  private:
   const BoxPoisson& box_;
-  const SolidSurface& surface_;
+  const SolidFaces& surface_;
   CellField& work_;
 };
 
 /// sum over links of missing (x_cell - x_other): what the operator among solids lacks of the empty box's.
-double missingFlux(const SolidSurface& surface, const CellField& x, std::int64_t n) {
+double missingFlux(const SolidFaces& surface, const CellField& x, std::int64_t n) {
   const double here = x.values[surface.cell[n]];
   double sum = 0;
   for (std::int32_t link = surface.firstLink[n]; link < surface.firstLink[n + 1]; ++link)
@@ -139,7 +139,7 @@ void copyField(const CellField& from, CellField& to) {
 
 /// Sum of term(n) over the cells of the surface, the same for any number of threads.
 template <class Term>
-double surfaceSum(const SolidSurface& surface, const Term& term) {
+double surfaceSum(const SolidFaces& surface, const Term& term) {
   return parallelSum(static_cast<std::int64_t>(surface.cell.size()), blockOfCells,
                      [&](std::int64_t first, std::int64_t last) {
                        double sum = 0;
@@ -152,7 +152,7 @@ double surfaceSum(const SolidSurface& surface, const Term& term) {
 /// solution is x = M^-1 (b + y).
 class SurfaceIteration {
  public:
-  SurfaceIteration(const SolidSurface& surface, const CellField& work, SurfaceVectors& v)
+  SurfaceIteration(const SolidFaces& surface, const CellField& work, SurfaceVectors& v)
       : surface_(surface), work_(work), v_(v) {}
 
   /// From work = M^-1 b: r = b - A x is what x's gradient carries through closed faces, less what bodies give way.
@@ -199,20 +199,20 @@ class SurfaceIteration {
     push.addOutflow(changes, [&](const BodyContact& c, double value) { out[c.number] += sign * value; });
   }
 
-  const SolidSurface& surface_;
+  const SolidFaces& surface_;
   const CellField& work_;
   SurfaceVectors& v_;
   double lastRz_ = 0;
 };
 }  // namespace
 
-SolidSurface findSurface(const SolidStamp& solid, const BoxPoisson& box) {
+SolidFaces findSurface(const SolidStamp& solid, const BoxPoisson& box) {
   const Vec3i cells = box.layout().cells;
   std::vector<PlaneSurface> planes(cells.z);
   parallelFor(0, cells.z, 1, [&](std::int64_t first, std::int64_t last) {
     for (int k = static_cast<int>(first); k < last; ++k) planes[k] = surfaceOfPlane(solid, box, k);
   });
-  SolidSurface surface;
+  SolidFaces surface;
   surface.region.planes.assign(cells.z, 0);
   surface.region.tiles.assign(static_cast<std::size_t>(cells.z) * box.tilesPerPlane(), 0);
   surface.firstLink.push_back(0);
@@ -229,7 +229,7 @@ SolidSurface findSurface(const SolidStamp& solid, const BoxPoisson& box) {
   return surface;
 }
 
-void addPush(BodyPush push, SolidSurface& surface) {
+void addPush(BodyPush push, SolidFaces& surface) {
   for (BodyContact& contact : push.contacts()) {
     const auto cell = std::lower_bound(surface.cell.begin(), surface.cell.end(), contact.cell);
     CHECK(cell != surface.cell.end() && *cell == contact.cell, "cell {} of {}", contact.cell, surface.cell.size());
@@ -243,7 +243,7 @@ void SurfaceVectors::resize(std::size_t count) {
     vector->resize(count);
 }
 
-PressureReport solveFastPoisson(const BoxPoisson& box, const SolidSurface& surface, double tolerance, int maxIterations,
+PressureReport solveFastPoisson(const BoxPoisson& box, const SolidFaces& surface, double tolerance, int maxIterations,
                                 CellField& field, CellField& work, SurfaceVectors& vectors) {
   PressureReport report;
   if (surface.empty()) {

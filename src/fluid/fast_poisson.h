@@ -14,7 +14,7 @@
 namespace brisance {
 
 /// The gas cells with a face that a solid closes, wholly or in part, and what each such face lacks.
-struct SolidSurface {
+struct SolidFaces {
   std::vector<std::int64_t> cell;        ///< place in the field, ascending
   std::vector<std::int32_t> firstLink;   ///< one more than cells: links of cell n are firstLink[n] .. firstLink[n + 1]
   std::vector<std::int64_t> other;       ///< by link: place of the cell behind the face
@@ -25,9 +25,9 @@ struct SolidSurface {
 
   bool empty() const { return cell.empty(); }
 };
-SolidSurface findSurface(const SolidStamp& solid, const BoxPoisson& box);
+SolidFaces findSurface(const SolidStamp& solid, const BoxPoisson& box);
 /// Takes the bodies that the gas pushes into the operator.
-void addPush(BodyPush push, SolidSurface& surface);
+void addPush(BodyPush push, SolidFaces& surface);
 
 /// Vectors over the cells of a surface.
 struct SurfaceVectors {
@@ -37,7 +37,7 @@ struct SurfaceVectors {
 
 /// Solves the operator with solids for x. `field` holds b on entry (zero in solids, of no net sum in a sealed pocket)
 /// and x on return; `work` is of the same layout. Ends when the residual is `tolerance` of |b|.
-PressureReport solveFastPoisson(const BoxPoisson& box, const SolidSurface& surface, double tolerance, int maxIterations,
+PressureReport solveFastPoisson(const BoxPoisson& box, const SolidFaces& surface, double tolerance, int maxIterations,
                                 CellField& field, CellField& work, SurfaceVectors& vectors);
 
 }  // namespace brisance

@@ -13,7 +13,7 @@ namespace brisance {
 struct PressureScratch {
   ConjugateGradientScratch conjugateGradient;
   std::optional<BoxPoisson> box;
-  SolidSurface surface;
+  SolidFaces surface;
   SurfaceVectors surfaceVectors;
   CellField field, work;
 };

@@ -76,7 +76,7 @@ struct EigenStart {
 
 /// Of the coarsest level that has nodes enough: its own vectors, with M-orthonormal columns.
 template <int K>
-EigenStart<K> coarsestVectors(const MultigridLevel& level) {
+EigenStart<K> coarsestVectors(const GraphLevel& level) {
   const std::uint32_t n = level.rows.size();
   Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(n, n);
   for (std::uint32_t i = 0; i < n; ++i)
@@ -123,7 +123,7 @@ void jacobiSweep(const LaplacianRows& rows, double damping, BlockVector<K, doubl
 /// From the next level, constant on each aggregate, then smoothed: D^-1 L has eigenvalues up to 2, and the Chebyshev
 /// polynomial of these dampings leaves 4 % of what is above a tenth of that, but all of a smooth vector.
 template <int K>
-BlockVector<K, double> prolonged(const MultigridLevel& fine, const BlockVector<K, double>& coarse) {
+BlockVector<K, double> prolonged(const GraphLevel& fine, const BlockVector<K, double>& coarse) {
   BlockVector<K, double> x(fine.rows.size()), scratch(fine.rows.size());
   forNodes(x.size(), [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) x[i] = coarse[fine.aggregateOf[i]];
@@ -161,7 +161,7 @@ EigenStart<K> coarseStart(const GraphMultigrid& grid, double residual) {
                             ? coarsestVectors<K>(grid.levels[level])
                             : EigenStart<K>{anyVectors<K>(grid.levels[level].rows.size()), {}};
   while (level-- > 1) {
-    const MultigridLevel& fine = grid.levels[level];
+    const GraphLevel& fine = grid.levels[level];
     start.x = prolonged<K>(fine, start.x);
     const EigenProblem<float> problem{fine.rows.first, fine.rows.targets, fine.rows.weights, fine.mass};
     const Goal goal{std::max(residual, coarseResidual), K - 1, coarseIterations};

@@ -181,7 +181,7 @@ LaplacianRows coarseRows(const LaplacianRows& fine, const Numbers& aggregateOf, 
 }
 
 /// Puts the entries of each row in the order that smoothing wants.
-void orderEntries(MultigridLevel& level) {
+void orderEntries(GraphLevel& level) {
   LaplacianRows& rows = level.rows;
   level.blockRows = rowsPerBlock(rows.size());
   level.belowEnd.resize(rows.size());
@@ -205,12 +205,12 @@ void orderEntries(MultigridLevel& level) {
 }
 
 /// Fills in how the level goes over into the next, and returns that.
-MultigridLevel coarsen(MultigridLevel& level) {
+GraphLevel coarsen(GraphLevel& level) {
   std::uint32_t pairs = 0, count = 0;
   const Numbers pairOf = Pairing(level.rows).aggregates(pairs);
   const LaplacianRows pairRows = coarseRows(level.rows, pairOf, membersOf(pairOf, pairs));
   const Numbers fourOf = Pairing(pairRows).aggregates(count);
-  MultigridLevel coarse;
+  GraphLevel coarse;
   coarse.rows = coarseRows(pairRows, fourOf, membersOf(fourOf, count));
   level.aggregateOf.resize(pairOf.size());
   forNodes(pairOf.size(), [&](std::uint32_t begin, std::uint32_t end) {
@@ -256,7 +256,7 @@ GraphMultigrid::GraphMultigrid(const FractureGraph& graph) {
   levels[0].rows = finestRows(graph);
   levels[0].mass.assign(levels[0].rows.size(), 1.f);
   while (levels.back().rows.size() > coarsestSize) {
-    MultigridLevel coarse = coarsen(levels.back());
+    GraphLevel coarse = coarsen(levels.back());
     CHECK(2 * coarse.rows.size() <= levels.back().rows.size(), "{} nodes of {}: the graph is not connected",
           coarse.rows.size(), levels.back().rows.size());
     orderEntries(levels.back());

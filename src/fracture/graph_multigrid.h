@@ -16,7 +16,7 @@ struct LaplacianRows {
 
 /// One level. Its rows are smoothed in fixed blocks, each by one thread: an entry is below its row in the same block,
 /// above it in the same block, or outside the block, and rows hold the three kinds in this order.
-struct MultigridLevel {
+struct GraphLevel {
   LaplacianRows rows;
   AlignedVector<std::uint32_t> belowEnd, insideEnd;  ///< per row, where its entries below and those inside end
   std::uint32_t blockRows = 1;
@@ -31,7 +31,7 @@ struct MultigridLevel {
 struct GraphMultigrid {
   explicit GraphMultigrid(const FractureGraph& graph);
   static constexpr std::uint32_t coarsestSize = 64;
-  std::vector<MultigridLevel> levels;
+  std::vector<GraphLevel> levels;
   std::vector<float> coarsestInverse;  ///< pseudo-inverse of the coarsest Laplacian, by rows
 };
 

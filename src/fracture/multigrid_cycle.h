@@ -58,7 +58,7 @@ class MultigridCycle {
   }
 
   template <class Body>
-  static void forBlocks(const MultigridLevel& level, const Body& body) {
+  static void forBlocks(const GraphLevel& level, const Body& body) {
     const std::uint32_t rows = level.rows.size(), blocks = (rows + level.blockRows - 1) / level.blockRows;
     parallelFor(0, blocks, 1, [&](std::int64_t begin, std::int64_t end) {
       for (auto block = static_cast<std::uint32_t>(begin); block < end; ++block)
@@ -75,7 +75,7 @@ class MultigridCycle {
   }
 
   /// From x = 0, so only entries below the row count.
-  static void sweepDown(const MultigridLevel& level, const Vectors& b, Vectors& x) {
+  static void sweepDown(const GraphLevel& level, const Vectors& b, Vectors& x) {
     forBlocks(level, [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) {
         Row sum = b[i];
@@ -86,7 +86,7 @@ class MultigridCycle {
   }
 
   /// After sweepDown the residual b - L x is what its sweep did not see: the entries above and outside.
-  static void restrictResidual(const MultigridLevel& level, const Vectors& x, Vectors& coarse) {
+  static void restrictResidual(const GraphLevel& level, const Vectors& x, Vectors& coarse) {
     forNodes(coarse.size(), [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t a = begin; a < end; ++a) {
         Row sum{};
@@ -99,7 +99,7 @@ class MultigridCycle {
     });
   }
 
-  static void prolong(const MultigridLevel& level, const Vectors& coarse, Vectors& x, Vectors& before) {
+  static void prolong(const GraphLevel& level, const Vectors& coarse, Vectors& x, Vectors& before) {
     forNodes(x.size(), [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) {
         const Row& correction = coarse[level.aggregateOf[i]];
@@ -109,7 +109,7 @@ class MultigridCycle {
     });
   }
 
-  static void sweepUp(const MultigridLevel& level, const Vectors& b, Vectors& x, const Vectors& before) {
+  static void sweepUp(const GraphLevel& level, const Vectors& b, Vectors& x, const Vectors& before) {
     forBlocks(level, [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = end; i-- > begin;) {
         Row sum = b[i];

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_sort.h>
 
+#include "base/cancellation.h"
 #include "base/check.h"
 #include "base/parallel.h"
 
@@ -111,6 +112,7 @@ std::vector<CutPoint> distinctPoints(const std::vector<CutBlock>& blocks) {
     std::copy_if(block.names.begin(), block.names.end(), std::back_inserter(points),
                  [](const CutPoint& name) { return name.kind != CutPoint::corner; });
   tbb::parallel_sort(points.begin(), points.end());
+  throwIfCancelled();
   points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
 }
@@ -151,6 +153,7 @@ CutSurface cutSurface(const SolidSurface& surface, const CellDiagram& diagram, c
   cut.points = distinctPoints(blocks);
   number(cut, blocks);
   tbb::parallel_sort(cut.segments.begin(), cut.segments.end());
+  throwIfCancelled();
   return cut;
 }
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/cancellation.h"
 #include "fluid/solid_fractions.h"
 #include "particles/burning.h"
 #include "rigid/collide.h"
@@ -157,6 +158,21 @@ bool World::advance(const StopRequested& stopRequested) {
   ++world.frame;
   addToTotals(world.report, world.totals);
   return true;
+}
+
+void World::advanceOrStay() {
+  WorldMoment before = *state_;
+  try {
+    advance();
+  } catch (const Interrupted&) {
+    // Nothing of a later step depends on what the room for work has in it, but it may have been left half made.
+    const CancellableWork undisturbed(nullptr);
+    state_->scratch = {};
+    state_->deposit = {};
+    state_->order = {};
+    static_cast<WorldMoment&>(*state_) = std::move(before);
+    throw;
+  }
 }
 
 Frame World::capture() const { return captureFrame(*state_, settings_); }

@@ -28,6 +28,9 @@ class World {
   /// One frame of film: sub-steps of the strictest limit. Throws Error(unstable) when a value leaves its range. False
   /// when it was asked to stop between two sub-steps: the next call then goes on from there, to the same bits.
   bool advance(const StopRequested& stopRequested = {});
+  /// The same to the frame's end, or not at all: cut in its middle (base/cancellation.h) it throws Interrupted, and the
+  /// world is what it was before. A second copy of the world's fields lives meanwhile.
+  void advanceOrStay();
   /// The moment now; frame 1 is the start.
   Frame capture() const;
   /// The same in two parts, for those who write it: the gas is made while it is read, and no world may advance

@@ -33,7 +33,8 @@ struct RunTotals {
   std::int64_t substeps = 0;
 };
 
-struct WorldState {
+/// What there is at a moment, without the room that a step works in. It can be copied.
+struct WorldMoment {
   int frame = 1;
   bool inFrame = false;       ///< the next frame was begun and has not come to its end
   double time = 0;            ///< [s]
@@ -49,9 +50,12 @@ struct WorldState {
   std::optional<SolidStamper> stamper;  ///< where moving bodies block the gas
   std::vector<BodyLook> looks;
   RunTotals totals;
-  StepReport report;  ///< of the last frame
-  FluidScratch scratch;
+  StepReport report;          ///< of the last frame
   std::vector<double> burnt;  ///< [kg] per particle in the last sub-step
+};
+
+struct WorldState : WorldMoment {
+  FluidScratch scratch;
   DepositScratch deposit;
   OrderScratch order;
 };

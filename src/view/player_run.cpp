@@ -21,7 +21,22 @@ using nlohmann::json;
 
 namespace {
 constexpr int fewestCells = 32;  // of the gas along an axis, however many bytes that takes
+
+/// The start of each file's hash: of what it means, or of its bytes.
+std::string versionOf(const std::map<std::string, ManifestEntry>& manifest, int frame) {
+  constexpr std::size_t letters = 8;
+  std::string version;
+  std::vector<std::string> names = FrameFileNames(frame).all();
+  names.push_back("pieces.glb");
+  for (const std::string& name : names) {
+    const auto entry = manifest.find(name);
+    if (entry == manifest.end()) return {};
+    const std::string& content = entry->second.content;
+    version += (content.empty() ? entry->second.file.hash : content).substr(0, letters);
+  }
+  return version;
 }
+}  // namespace
 
 /// The run by one look at its manifest.
 struct PlayerRun::Look {
@@ -51,9 +66,14 @@ std::shared_ptr<const PlayerRun::Look> PlayerRun::look() const {
 
 int PlayerRun::lastFrame() const { return look()->reader.lastFrame(); }
 
+std::string PlayerRun::version(int frame) const { return versionOf(look()->manifest, frame); }
+
 std::string PlayerRun::state() const {
-  const int frames = lastFrame();
-  return json{{"frames", frames}, {"planned", std::max(frames, scene_.frames)}}.dump();
+  const auto run = look();
+  const int frames = run->reader.lastFrame();
+  json versions = json::array();
+  for (int frame = 1; frame <= frames; ++frame) versions.push_back(versionOf(run->manifest, frame));
+  return json{{"frames", frames}, {"planned", std::max(frames, scene_.frames)}, {"versions", versions}}.dump();
 }
 
 std::string PlayerRun::description() const {

@@ -29,7 +29,10 @@ class PlayerRun {
 
   /// Frames 1 .. N are there: N.
   int lastFrame() const;
-  /// JSON: how many frames are there, of how many.
+  /// What tells a frame from one of the same number in a run that took this one's place: of its files' contents. Empty:
+  /// not there.
+  std::string version(int frame) const;
+  /// JSON: how many frames are there, of how many, and their versions.
   std::string state() const;
   /// JSON: the film's times, light and camera, the gas' optics, the bodies in the order of the poses.
   std::string description() const;

@@ -64,15 +64,16 @@ HttpAnswer RunSite::data(const std::string& name) {
 }
 
 HttpAnswer RunSite::moment(int frame) {
+  const MomentKey key{frame, run_.version(frame)};
+  if (key.second.empty()) return notThere();
   {
     const std::lock_guard lock(guard_);
-    if (const auto found = moments_.find(frame); found != moments_.end()) return found->second;
+    if (const auto found = moments_.find(key); found != moments_.end()) return found->second;
   }
-  if (frame > run_.lastFrame()) return notThere();
   const HttpAnswer made = answerWith("application/octet-stream", run_.moment(frame));
   const std::lock_guard lock(guard_);
-  if (!moments_.emplace(frame, made).second) return made;
-  order_.push_back(frame);
+  if (!moments_.emplace(key, made).second) return made;
+  order_.push_back(key);
   bytes_ += made.body->size();
   constexpr std::size_t mostBytes = 64 << 20;
   while (bytes_ > mostBytes && order_.size() > 1) {

@@ -26,8 +26,9 @@ class RunSite {
   const PlayerRun& run_;
   HttpAnswer page_;
   std::mutex guard_;
-  std::map<int, HttpAnswer> moments_;  ///< those last asked for, up to a number of bytes
-  std::deque<int> order_;              ///< in which they came
+  using MomentKey = std::pair<int, std::string>;  ///< a frame and its version
+  std::map<MomentKey, HttpAnswer> moments_;       ///< those last asked for, up to a number of bytes
+  std::deque<MomentKey> order_;                   ///< in which they came
   std::size_t bytes_ = 0;
 };
 

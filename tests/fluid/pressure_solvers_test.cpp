@@ -226,7 +226,7 @@ TEST(PressureSolvers, WhatTheyClaimAmongSolidsIsTrue) {
   const FluidState gas = stirredGas(s, solids);
   const PressureOperator op = makePressureOperator(gas.solid, s.faces);
   const BoxPoisson box(s.cells, s.faces);
-  const SolidSurface surface = findSurface(gas.solid, box);
+  const SolidFaces surface = findSurface(gas.solid, box);
   CellField b(box.layout()), work(box.layout());
   computeSource(gas, b);
   SurfaceVectors vectors;

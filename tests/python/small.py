@@ -60,6 +60,24 @@ def cube():
     return vertices, np.array(triangles)
 
 
+def ball(rings):
+    """A closed ball of about 4 rings^2 triangles: vertices and triangles."""
+    around = 2 * rings
+    polar, turn = np.meshgrid(np.pi * np.arange(1, rings) / rings, np.pi * np.arange(around) / rings, indexing="ij")
+    wide = np.sin(polar)
+    points = np.stack([wide * np.cos(turn), np.cos(polar), wide * np.sin(turn)], axis=-1).reshape(-1, 3)
+    number = np.arange(len(points)).reshape(rings - 1, around)
+    after = np.roll(number, -1, axis=1)
+    bands = [np.stack([number[:-1], after[:-1], number[1:]], -1), np.stack([after[:-1], after[1:], number[1:]], -1)]
+    north, south = len(points), len(points) + 1
+    caps = [
+        np.stack([np.full(around, north), after[0], number[0]], -1),
+        np.stack([np.full(around, south), number[-1], after[-1]], -1),
+    ]
+    triangles = np.concatenate([part.reshape(-1, 3) for part in bands + caps])
+    return np.concatenate([points, [[0, 1, 0], [0, -1, 0]]]), triangles
+
+
 def program(*arguments):
     """Runs the program: exit code, and what it says on standard error without its progress."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)

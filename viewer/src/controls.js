@@ -11,6 +11,7 @@ export class Controls {
     this.moments = player.moments;
     this.graph = 'volume';
     this.shownFrame = -1;
+    this.graphsDrawn = -Infinity;  // [ms]
     this.fastest = 1;
     this.coldest = Infinity;
     this.hottest = -Infinity;
@@ -168,6 +169,10 @@ export class Controls {
     element('seconds').textContent = `${(film * timeScale).toFixed(3)} s`;
     element('frame').textContent = `frame ${number} of ${moments.planned}`;
     document.body.dataset.frame = number;
+    // The page is drawn by the same processor as the picture where there is no card.
+    const now = performance.now();
+    if (player.isPlaying && player.stage.isSoftware && now - this.graphsDrawn < 500) return;
+    this.graphsDrawn = now;
     this.drawGraphs();
   }
 

@@ -5,7 +5,7 @@ import {Player} from './player.js';
 import {parsed, Source} from './source.js';
 import {contextAttributes, Stage} from './stage.js';
 
-const pollSeconds = 1;
+const pollSeconds = 1, calmPollSeconds = 5;  // while the run goes on, and once it is whole
 
 function say(title, text) {
   const message = document.getElementById('message');
@@ -43,7 +43,7 @@ function whenDrawn(gl, done) {
   }, 10);
 }
 
-/** A run that still goes on is asked how far it is. */
+/** The run is asked how far it is, and whether it is still the same. */
 async function poll(source, moments, trouble) {
   try {
     moments.grow(await source.json('state.json'));
@@ -52,31 +52,41 @@ async function poll(source, moments, trouble) {
     trouble('The player’s server does not answer any more. What has arrived can still be played.');
   }
   document.getElementById('live').hidden = !moments.isGrowing;
-  if (!source.isEmbedded && moments.isGrowing) setTimeout(() => poll(source, moments, trouble), 1000 * pollSeconds);
+  if (source.isEmbedded) return;
+  setTimeout(() => poll(source, moments, trouble), 1000 * (moments.isGrowing ? pollSeconds : calmPollSeconds));
 }
 
 async function begin() {
+  performance.mark('script');
   const source = new Source();
   // Asked for before the drawing context is made, which takes a while.
   const asked = ['run.json', 'state.json', 'pieces.glb'].map(name => source.bytes(name));
   asked.forEach(answer => answer.catch(() => {}));  // told of below
   const canvas = document.getElementById('view');
   const gl = canvas.getContext('webgl2', contextAttributes);
+  performance.mark('context');
   const lack = lackOf(gl);
   if (lack) return say('This browser cannot show the run', lack);
   const [run, state] = await Promise.all(asked.slice(0, 2).map(async bytes => parsed(await bytes)));
+  performance.mark('described');
   showTitle(run);
   const moments = new Moments(source, run);
   moments.grow(state);
   const stage = new Stage(canvas, gl, run);
-  await stage.load(await asked[2]);
+  performance.mark('stage');
+  const glb = await asked[2];
+  performance.mark('glb');
+  await stage.load(glb);
+  performance.mark('pieces');
   const player = new Player(stage, moments, run, source);
   player.onFirst = () => {
     saidNothing();
+    performance.mark('told');
     whenDrawn(gl, () => { document.body.dataset.started = Math.round(performance.now()); });
   };
   player.onWhole = () => whenDrawn(gl, () => { document.body.dataset.ready = Math.round(performance.now()); });
   const controls = new Controls(player);
+  window.brisance = {player, moments, stage, controls};
   let drawn = 0;
   moments.listeners.arrived = (place, moment) => {
     controls.learnRange(moment);
@@ -91,7 +101,6 @@ async function begin() {
   moments.known.forEach((moment, place) => moment && moments.listeners.arrived(place, moment));
   await poll(source, moments, text => (text ? console.warn(text) : undefined));
   if (moments.count === 0) say('No frame is there yet', 'The run has only begun; the first frame will appear here.');
-  window.brisance = {player, moments, stage, controls};
 }
 
 begin().catch(trouble => say('The run cannot be shown', String(trouble.message ?? trouble)));

@@ -9,6 +9,7 @@ export class Moments {
     this.source = source;
     this.planned = run.planned;
     this.numbers = [];        // frames of the run by their place in the film, as far as they are there
+    this.versions = [];       // by place: another is another run's
     this.known = [];          // {header, poses, bytes} by place
     this.asked = new Set();
     this.onWay = 0;
@@ -31,7 +32,9 @@ export class Moments {
     this.planned = state.planned;
     const before = this.count;
     this.numbers = state.numbers ?? Array.from({length: state.frames}, (_, n) => n + 1);
-    if (this.count < before) location.reload();  // another run took its place
+    // Another run took its place.
+    if (this.count < before || this.versions.some((version, place) => version !== state.versions?.[place])) location.reload();
+    this.versions = state.versions ?? [];
     this.fetchMore();
     return this.count > before;
   }

@@ -9,6 +9,10 @@ import {pieceFragment, pieceVertex} from './shaders.js';
 const perBody = 3;  // texels: place and whether it is there; orientation; speed, temperature, hue, whether it moves
 const goldenRatio = 0.618033988749895;
 
+/** The picture of what has none: one program for all is compiled once. */
+const white = new DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1, RGBAFormat);
+white.needsUpdate = true;
+
 /** @param {Uint8Array} bytes binary glTF @returns {Promise<{name: string, meshes: Mesh[]}[]>} in the order of the nodes */
 async function readBodies(bytes) {
   const {buffer} = bytes.byteOffset === 0 && bytes.byteLength === bytes.buffer.byteLength ? bytes : bytes.slice();
@@ -26,9 +30,11 @@ function poseTexture(bodies) {
 }
 
 export class Pieces {
-  /** @param {{name: string, moves: boolean}[]} bodies in the order of the poses */
-  constructor(bodies) {
+  /** @param {{name: string, moves: boolean}[]} bodies in the order of the poses
+      @param {boolean} isPlain what is not glass has no glints: a third of its work */
+  constructor(bodies, isPlain) {
     this.bodies = bodies;
+    this.isPlain = isPlain;
     this.numbers = new Map(bodies.map(({name}, number) => [name, number]));
     this.parts = [];   // {body, mesh, first, count} vertices of a body in one of the meshes
     this.solids = [];  // meshes
@@ -102,10 +108,10 @@ export class Pieces {
     const shine = 1 - (material.roughness ?? 1);
     const made = new RawShaderMaterial({
       glslVersion: GLSL3, vertexShader: pieceVertex, fragmentShader: pieceFragment, side: material.side,
-      defines: {...(isGlass && {GLASS: 1, EDGE: isInside ? '1.0' : '0.0'}), ...(picture && {PICTURE: 1})},
+      defines: isGlass ? {GLASS: 1} : this.isPlain ? {PLAIN: 1} : {},
       uniforms: {
         ...this.uniforms,
-        picture: {value: picture ?? null},
+        picture: {value: picture ?? white}, edge: {value: isInside ? 1 : 0},
         colour: {value: material.color ?? new Color(0.7, 0.7, 0.7)}, emission: {value: emission},
         shine: {value: 0.25 * Math.max(0, shine)},
       },

@@ -2,6 +2,7 @@
 
 const slowFrame = 48, quickFrame = 22;  // [ms]
 const fewFrames = 12;
+const restAfter = 500;  // [ms] without a change a picture is a still
 
 export class Player {
   /** @param {import('./stage.js').Stage} stage @param {import('./moments.js').Moments} moments */
@@ -18,6 +19,7 @@ export class Player {
     this.isDirty = true;
     this.spans = [];
     this.lastRaise = 0;
+    this.moved = 0;          // [ms] when the picture last changed
     this.onFrame = () => {};
     this.longest = 0;        // [ms] between two pictures while playing
     moments.listeners.shown = (frame, message) => this.takeGas(frame, message);
@@ -141,7 +143,9 @@ export class Player {
     this.before = now;
     const key = this.moments.known[this.frame]?.header.camera;
     const turns = this.stage.placeCamera(key);
-    if (!this.isDirty && !turns) return;
+    if (this.isDirty || turns) this.moved = now;
+    const isAnother = this.stage.setAtRest(!this.isPlaying && now - this.moved > restAfter);
+    if (!this.isDirty && !turns && !isAnother) return;
     if (this.isPlaying && span > 0) this.adapt(span, now);
     this.isDirty = false;
     this.putPoses();

@@ -60,7 +60,7 @@ in vec4 tint;
 uniform sampler2D picture;
 uniform vec3 colour, emission, eye, ambient, sky;
 uniform highp sampler2D solidDepth;
-uniform float shine;
+uniform float shine, edge;
 uniform int sunCount, lampCount;
 uniform vec3 sunWays[2], sunLights[2];
 uniform vec4 lamps[6];       // place, and how it falls off: 0 or 2
@@ -76,53 +76,48 @@ vec3 skyAlong(vec3 way) {
   float up = smoothstep(-0.25, 0.9, way.y), horizon = exp(-14.0 * way.y * way.y);
   return sky * mix(0.35, 1.25, up) + sky * 1.1 * horizon;
 }
-// What reaches a surface: from all around (less from below), suns, lamps and fire.
-vec3 arriving(vec3 n) {
-  vec3 sum = ambient * (0.72 + 0.28 * n.y);
-  for (int s = 0; s < sunCount; ++s) sum += sunLights[s] * max(dot(n, sunWays[s]), 0.0);
-  for (int l = 0; l < lampCount; ++l) {
-    vec3 way = lamps[l].xyz - place;
-    float square = dot(way, way) + 0.02;
-    float share = max(dot(n, way) * inversesqrt(square), 0.0);
-    sum += lampLights[l] * share / (lamps[l].w > 0.5 ? square : 1.0);
+// What reaches a surface: from all around (less from below), suns, lamps and fire; and what of it shines into the eye.
+// One walk over the lights for both: programs are compiled sooner where a processor does it.
+void gather(vec3 n, vec3 toEye, float sharpness, out vec3 arriving, out vec3 glints) {
+  arriving = ambient * (0.72 + 0.28 * n.y);
+  glints = vec3(0.0);
+  vec3 back = reflect(-toEye, n);
+  for (int k = 0; k < sunCount + lampCount; ++k) {
+    bool isSun = k < sunCount;
+    int l = isSun ? 0 : k - sunCount;
+    vec3 way = isSun ? sunWays[k] : lamps[l].xyz - place;
+    float square = isSun ? 1.0 : dot(way, way) + 0.02;
+    vec3 light = isSun ? sunLights[k] : lampLights[l];
+    bool fades = !isSun && lamps[l].w > 0.5;
+    way *= inversesqrt(square);
+    arriving += light * max(dot(n, way), 0.0) / (fades ? square : 1.0);
+#ifndef PLAIN
+    glints += light * pow(max(dot(back, way), 0.0), isSun ? sharpness : 0.25 * sharpness)
+            * (isSun ? 1.0 : 0.6) / (fades ? 1.0 + square : 1.0);
+#endif
   }
-  return sum;
-}
-vec3 glints(vec3 n, vec3 toEye, float sharpness) {
-  vec3 sum = vec3(0.0), back = reflect(-toEye, n);
-  for (int s = 0; s < sunCount; ++s) sum += sunLights[s] * pow(max(dot(back, sunWays[s]), 0.0), sharpness);
-  for (int l = 0; l < lampCount; ++l) {
-    vec3 way = lamps[l].xyz - place;
-    float square = dot(way, way) + 0.02;
-    sum += 0.6 * lampLights[l] * pow(max(dot(back, way * inversesqrt(square)), 0.0), 0.25 * sharpness)
-         / (lamps[l].w > 0.5 ? 1.0 + square : 1.0);
-  }
-  return sum;
 }
 void main() {
-  vec3 n = facing(), toEye = normalize(eye - place);
+  vec3 n = facing(), toEye = normalize(eye - place), arriving, glints;
 #ifdef GLASS
-  if (tint.a < 0.5) {
+  bool isClear = tint.a < 0.5;
+  gather(n, toEye, isClear ? 220.0 : 40.0, arriving, glints);
+  if (isClear) {
     if (texelFetch(solidDepth, ivec2(gl_FragCoord.xy), 0).r < gl_FragCoord.z) discard;
     float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(n, toEye), 0.0), 5.0);
     vec3 mirrored = skyAlong(reflect(-toEye, n));
-    float edge = EDGE;
-    vec3 body = vec3(0.55, 0.85, 0.75) * arriving(n) * edge;
-    light = vec4(fresnel * mirrored + body * 0.3 + glints(n, toEye, 220.0), min(1.0, 0.8 * fresnel + 0.3 * edge));
+    vec3 body = vec3(0.55, 0.85, 0.75) * arriving * edge;
+    light = vec4(fresnel * mirrored + body * 0.3 + glints, min(1.0, 0.8 * fresnel + 0.3 * edge));
     return;
   }
+#else
+  gather(n, toEye, 40.0, arriving, glints);
 #endif
   // Decoded here (a cubic near the curve of sRGB): cards without hardware decode every texel of a filter.
-#ifdef PICTURE
   vec3 code = texture(picture, texturePlace).rgb;
-#else
-  vec3 code = vec3(1.0);
-#endif
   vec3 painted = code * (code * (code * 0.305306011 + 0.682171111) + 0.012522878);
   vec3 own = tint.a > 0.5 ? tint.rgb : colour * painted;
-  vec3 sum = own * arriving(n) + emission * painted;
-  if (shine > 0.0) sum += shine * glints(n, toEye, 40.0);
-  light = vec4(sum, 1.0);
+  light = vec4(own * arriving + emission * painted + shine * glints, 1.0);
 }
 `;
 
@@ -163,7 +158,7 @@ in vec3 position;
 out vec2 spot;
 void main() {
   spot = 0.5 * position.xy + 0.5;
-  gl_Position = vec4(position.xy, 0.0, 1.0);
+  gl_Position = vec4(position.xy, 1.0, 1.0);  // behind everything
 }
 `;
 

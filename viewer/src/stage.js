@@ -19,6 +19,8 @@ const qualities = [
 ];
 /** From here on edges before gas are not looked after. */
 const hasty = 5;
+/** No still picture is worse than this. */
+const atRest = 7;
 
 const fireColour = new Vector3(0.8, 0.4, 0.15);  // of its light on everything else
 const nearest = 0.05, farthest = 200;  // [m] from the camera
@@ -61,13 +63,15 @@ export class Stage {
     const info = gl.getExtension('WEBGL_debug_renderer_info');
     this.card = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
     this.isSoftware = /swiftshader|llvmpipe|softpipe|software/i.test(this.card);
-    this.quality = this.isSoftware ? 7 : 2;
+    document.body.classList.toggle('hasCard', !this.isSoftware);
+    this.quality = this.isSoftware ? 9 : 2;
     this.bestQuality = this.isSoftware ? 3 : 0;
     this.camera = new PerspectiveCamera(40, 1, nearest, farthest);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.followsFilm = true;
+    this.isAtRest = false;
     this.flat = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
     this.toWorld = new Matrix4();
     this.makeLayers();
@@ -91,7 +95,7 @@ export class Stage {
     this.halo = [layer({depthBuffer: false}), layer({depthBuffer: false})];
     const {background, exposureStops} = this.run;
     this.skyUniforms = {toWorld: {value: this.toWorld}, eye: {value: new Vector3()}, sky: {value: new Vector3(...background)}};
-    this.sky = pass(skyFragment, this.skyUniforms);
+    this.sky = pass(skyFragment, this.skyUniforms, {depthTest: true});
     this.blurUniforms = {from: {value: null}, fromBehind: {value: null}, texel: {value: new Vector2()}, first: {value: 1}};
     this.blur = pass(blurFragment, this.blurUniforms);
     this.developUniforms = {
@@ -109,7 +113,7 @@ export class Stage {
     this.gasPass = new Mesh(fullScreen, this.gas.material);
     this.gasPass.frustumCulled = false;
     this.particles = new Particles(colours);
-    this.pieces = new Pieces(run.bodies);
+    this.pieces = new Pieces(run.bodies, this.isSoftware);
     this.solids = new Scene();
     this.glasses = new Scene();
     this.sparks = new Scene();
@@ -182,12 +186,12 @@ export class Stage {
 
   resize() {
     const {clientWidth: width, clientHeight: height} = this.renderer.domElement;
-    const {screen, gas, pace} = qualities[this.quality];
+    const {screen, gas, pace} = qualities[this.isAtRest ? Math.min(this.quality, atRest) : this.quality];
     const ratio = screen > 1 ? Math.min(window.devicePixelRatio, screen) : screen;
     const pixels = n => Math.max(8, Math.round(n));
     this.renderer.setPixelRatio(1);
-    this.renderer.setSize(pixels(width * ratio), pixels(height * ratio), false);
     const w = pixels(width * ratio), h = pixels(height * ratio);
+    this.renderer.setSize(w, h, false);
     this.solidLayer.setSize(w, h);
     this.glassLayer.setSize(w, h);
     const [gw, gh] = [pixels(w * gas), pixels(h * gas)];
@@ -204,6 +208,14 @@ export class Stage {
     this.particles.uniforms.size.value = h;
     this.camera.aspect = width / Math.max(height, 1);
     this.camera.updateProjectionMatrix();
+  }
+
+  /** A picture that stays may take longer. True when it is drawn otherwise from now on. */
+  setAtRest(isAtRest) {
+    const isAnother = this.isAtRest !== isAtRest && this.quality > atRest;
+    this.isAtRest = isAtRest;
+    if (isAnother) this.resize();
+    return isAnother;
   }
 
   changeQuality(by) {
@@ -229,8 +241,8 @@ export class Stage {
     renderer.setRenderTarget(this.solidLayer);
     renderer.setClearColor(0x000000, 0);
     renderer.clear();
-    renderer.render(this.sky, this.flat);
     renderer.render(this.solids, camera);
+    renderer.render(this.sky, this.flat);  // where nothing else is
     renderer.render(this.sparks, camera);
     renderer.setRenderTarget(this.glassLayer);
     renderer.clear();

@@ -1,7 +1,7 @@
 // Chromium as the user: opens the player, plays, drags, switches, and sees pieces move and fire burn.
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
-import {binary, brisance, chromiumFile, expect, finish, launch, place, serve, skipWithout, smallRun} from './world.mjs';
+import {binary, brisance, chromiumFile, expect, finish, here, launch, place, serve, skipWithout, smallRun} from './world.mjs';
 
 const fieryFrame = 4;
 const patience = 120000;  // [ms] for a machine that does much else
@@ -35,6 +35,7 @@ async function pixels(page) {
   return page.evaluate(() => {
     const {player, stage} = window.brisance;
     player.putPoses();
+    stage.setAtRest(false);  // pictures that are compared have as many pixels
     stage.draw(player.showsGas);
     const gl = stage.renderer.getContext(), bytes = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
     gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
@@ -152,6 +153,27 @@ async function growsWithTheRun(url) {
   await page.close();
 }
 
+async function followsARunThatTakesThePlaceOfAnother() {
+  const changing = join(place, 'changing');
+  const simulate = (...words) => brisance('simulate', join(here, 'small.toml'), '-o', changing, '--quiet', '--set', 'scene.frames=4', ...words);
+  simulate();
+  const own = await serve(changing);
+  const bytesOfLast = async () => Buffer.from(await (await fetch(`${own.url}data/moments/4`)).arrayBuffer()).toString('base64');
+  const speedOfLast = page => page.evaluate(() => Math.max(...(window.brisance?.moments.known[3]?.poses.speed ?? [0])));
+  const page = await open(own.url);
+  await page.waitForFunction(() => window.brisance.moments.known[3]);
+  const before = [await bytesOfLast(), await speedOfLast(page)];
+  simulate('--overwrite', '--set', 'rigid.push.force_constant=900');
+  expect(await bytesOfLast() !== before[0], 'a frame of a run that was overwritten is made anew');
+  await page.waitForFunction(speed => {
+    const known = window.brisance?.moments.known[3];
+    return known && Math.max(...known.poses.speed) !== speed;
+  }, before[1], {polling: 200});
+  expect(true, 'the page goes on with the run that took the place of another');
+  await page.close();
+  await own.stop();
+}
+
 async function oneFileNeedsNoServer() {
   const file = join(place, 'player.html');
   brisance('export', run, '--to', 'html', '-o', file, '--quiet');
@@ -183,6 +205,7 @@ try {
   await page.close();
   await fitsAPhone(server.url);
   await growsWithTheRun(server.url);
+  await followsARunThatTakesThePlaceOfAnother();
   await oneFileNeedsNoServer();
   await saysWhatIsMissing(server.url);
   expect(said.length === 0, `the console stays silent ${said.slice(0, 3)}`);
