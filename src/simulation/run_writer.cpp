@@ -29,6 +29,10 @@ StagedFile stageCheckpoint(const RunDirectory& run, int frame, const std::functi
 
 void saveCheckpoint(RunDirectory& run, StagedFile checkpoint, std::size_t keep) {
   run.add(std::move(checkpoint));
+  keepNewestCheckpoints(run, keep);
+}
+
+void keepNewestCheckpoints(RunDirectory& run, std::size_t keep) {
   std::vector<std::string> names = checkpointsOf(run);
   names.resize(names.size() > keep ? names.size() - keep : 0);
   if (!names.empty()) run.remove(names);

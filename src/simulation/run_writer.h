@@ -37,6 +37,8 @@ class RunWriter {
 std::vector<std::string> checkpointsOf(const RunDirectory& run);
 /// Adds a checkpoint, then forgets the older ones but the last `keep`.
 void saveCheckpoint(RunDirectory& run, StagedFile checkpoint, std::size_t keep);
+/// Forgets all but the last `keep`.
+void keepNewestCheckpoints(RunDirectory& run, std::size_t keep);
 /// Written, not yet there.
 StagedFile stageCheckpoint(const RunDirectory& run, int frame, const std::function<void(std::ostream&)>& write);
 

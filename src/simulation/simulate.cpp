@@ -76,13 +76,14 @@ void writeFrame(RunDirectory& run, RunWriter& writer, const World& world, const 
   summary.stageSeconds["write"] += watch.lap();
 }
 
-/// What is still on its way; then there is a checkpoint of this moment.
+/// What is still on its way; then there is a checkpoint of this moment, and none that a run killed before it could
+/// remove them has left.
 void finishWriting(RunDirectory& run, RunWriter& writer, const World& world, SimulationSummary& summary) {
   Stopwatch watch;
   writer.wait();
   const std::vector<std::string> names = checkpointsOf(run);
-  if (names.empty() || frameOfCheckpoint(names.back()) != world.frameIndex())
-    saveCheckpoint(run, stage(run, world), summary.interrupted ? keptWhileRunning : keptWhenDone);
+  if (names.empty() || frameOfCheckpoint(names.back()) != world.frameIndex()) run.add(stage(run, world));
+  keepNewestCheckpoints(run, summary.interrupted ? keptWhileRunning : keptWhenDone);
   summary.stageSeconds["write"] += watch.lap();
 }
 }  // namespace

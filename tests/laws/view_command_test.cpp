@@ -58,7 +58,10 @@ ScratchDirectory* ViewCommand::place_ = nullptr;
 
 TEST_F(ViewCommand, ServesThePageAndWhatItAsksFor) {
   EXPECT_NE(get("/").find("<title>Brisance</title>"), std::string::npos);
-  EXPECT_EQ(json::parse(bodyOf(get("/data/state.json"))), json({{"frames", frames}, {"planned", frames}}));
+  const json state = json::parse(bodyOf(get("/data/state.json")));
+  EXPECT_EQ(state["frames"], frames);
+  EXPECT_EQ(state["planned"], frames);
+  EXPECT_EQ(state["versions"].size(), frames);
   const json told = json::parse(bodyOf(get("/data/run.json")));
   EXPECT_EQ(told["bodies"].size(), 6u);
   EXPECT_EQ(told["heat"]["colours"].size(), 256u);
