@@ -1,7 +1,6 @@
 #include "fluid/gas_regions.h"
 
-#include <numeric>
-
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 
 namespace brisance {
@@ -15,24 +14,6 @@ struct Run {
 
 struct RowPlace {
   int j, k;
-};
-
-/// Sets of runs, the lowest number of each its root.
-class RunSets {
- public:
-  explicit RunSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t n) {
-    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
-    return n;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
 };
 
 /// Legend: runs are numbered row by row; those of row r are first_[r] .. first_[r + 1].
@@ -51,7 +32,7 @@ class RegionSearch {
       runs_.insert(runs_.end(), row.begin(), row.end());
       first_.push_back(static_cast<std::uint32_t>(runs_.size()));
     }
-    RunSets sets(runs_.size());
+    DisjointSets sets(runs_.size());
     joinRuns(sets);
     number(sets);
   }
@@ -86,7 +67,7 @@ class RegionSearch {
   }
 
   /// Joins the runs of two rows where a face between them is open at all.
-  void joinRows(std::size_t lower, std::size_t upper, const float* share, RunSets& sets) const {
+  void joinRows(std::size_t lower, std::size_t upper, const float* share, DisjointSets& sets) const {
     std::uint32_t a = first_[lower], b = first_[upper];
     while (a < first_[lower + 1] && b < first_[upper + 1]) {
       const int from = std::max(runs_[a].first, runs_[b].first), to = std::min(runs_[a].end, runs_[b].end);
@@ -99,7 +80,7 @@ class RegionSearch {
     }
   }
 
-  void joinRuns(RunSets& sets) const {
+  void joinRuns(DisjointSets& sets) const {
     const MacVelocity& open = stamp_.openShare;
     for (int k = 0; k < n_.z; ++k)
       for (int j = 0; j < n_.y; ++j) {
@@ -114,7 +95,7 @@ class RegionSearch {
       }
   }
 
-  void number(RunSets& sets) {
+  void number(DisjointSets& sets) {
     std::vector<std::int32_t> numbers(runs_.size(), -1);
     stamp_.sealed.clear();
     for (std::uint32_t r = 0; r < runs_.size(); ++r) {

@@ -1,7 +1,8 @@
 #include "rigid/sleep.h"
 
 #include <limits>
-#include <numeric>
+
+#include "base/disjoint_sets.h"
 
 namespace brisance {
 namespace {
@@ -33,20 +34,6 @@ void countRest(RigidBodies& bodies, const std::vector<CollisionShape>& shapes, c
   }
 }
 
-/// Movers that touch one another, as sets.
-class Heaps {
- public:
-  explicit Heaps(std::size_t movers) : parent_(movers) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t of(std::uint32_t mover) {
-    while (parent_[mover] != mover) mover = parent_[mover] = parent_[parent_[mover]];
-    return mover;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 /// What is known of a heap when it might fall asleep.
 struct Heap {
   bool lies = false;  ///< on scenery, or on what is asleep
@@ -71,14 +58,14 @@ void addSupport(const RigidBodies& bodies, std::uint32_t other, Heap& heap) {
 
 /// Per mover that stands for its heap.
 std::vector<Heap> findHeaps(const RigidBodies& bodies, const Movers& movers, std::span<const ContactPoint> contacts,
-                            const ContactSolver& solver, const std::vector<bool>& isAwake, Heaps& joined) {
+                            const ContactSolver& solver, const std::vector<bool>& isAwake, DisjointSets& joined) {
   for (std::size_t n = 0; n < contacts.size(); ++n)
     if (solver.touches(n) && isAwake[contacts[n].a] && isAwake[contacts[n].b])
       joined.join(movers.number[contacts[n].a], movers.number[contacts[n].b]);
   std::vector<Heap> heaps(movers.of.size());
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     if (!isAwake[b]) continue;
-    Heap& heap = heaps[joined.of(movers.number[b])];
+    Heap& heap = heaps[joined.root(movers.number[b])];
     heap.rests = heap.rests && bodies.rest[b].duration >= longEnough;
     heap.number = std::min<std::uint64_t>(heap.number, b + 1);
   }
@@ -86,7 +73,7 @@ std::vector<Heap> findHeaps(const RigidBodies& bodies, const Movers& movers, std
     const auto [awake, other] =
         isAwake[contacts[n].a] ? std::pair(contacts[n].a, contacts[n].b) : std::pair(contacts[n].b, contacts[n].a);
     if (solver.touches(n) && isAwake[awake] && !isAwake[other])
-      addSupport(bodies, other, heaps[joined.of(movers.number[awake])]);
+      addSupport(bodies, other, heaps[joined.root(movers.number[awake])]);
   }
   return heaps;
 }
@@ -128,12 +115,12 @@ void fallAsleep(RigidBodies& bodies, const std::vector<CollisionShape>& shapes, 
                 std::span<const ContactPoint> contacts, const ContactSolver& solver, const std::vector<bool>& isAwake,
                 double dt) {
   countRest(bodies, shapes, isAwake, dt);
-  Heaps joined(movers.of.size());
+  DisjointSets joined(movers.of.size());
   const std::vector<Heap> heaps = findHeaps(bodies, movers, contacts, solver, isAwake, joined);
   const auto sleeps = [](const Heap& heap) { return heap.lies && heap.rests; };
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (!isAwake[b]) continue;
-    const Heap& heap = heaps[joined.of(movers.number[b])];
+    const Heap& heap = heaps[joined.root(movers.number[b])];
     if (!sleeps(heap)) continue;
     bodies.rest[b].heap = heap.number;
     bodies.linearVelocity[b] = bodies.angularVelocity[b] = {};
