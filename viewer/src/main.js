@@ -1,6 +1,7 @@
 // The player begins: what is asked for first, and what is said when something is missing.
 import {Controls} from './controls.js';
 import {Moments} from './moments.js';
+import {readBodies} from './pieces.js';
 import {Player} from './player.js';
 import {parsed, Source} from './source.js';
 import {contextAttributes, Stage} from './stage.js';
@@ -56,12 +57,20 @@ async function poll(source, moments, trouble) {
   setTimeout(() => poll(source, moments, trouble), 1000 * (moments.isGrowing ? pollSeconds : calmPollSeconds));
 }
 
+/** Lets the browser start its drawing in a thread of its own: the page's first context, which would wait for that, comes sooner. */
+function warmUp() {
+  const text = `new OffscreenCanvas(1, 1).getContext('webgl2')`;
+  new Worker(URL.createObjectURL(new Blob([text], {type: 'text/javascript'})));
+}
+
 async function begin() {
   performance.mark('script');
   const source = new Source();
-  // Asked for before the drawing context is made, which takes a while.
   const asked = ['run.json', 'state.json', 'pieces.glb'].map(name => source.bytes(name));
   asked.forEach(answer => answer.catch(() => {}));  // told of below
+  warmUp();
+  const bodies = await readBodies(await asked[2]);
+  performance.mark('glb');
   const canvas = document.getElementById('view');
   const gl = canvas.getContext('webgl2', contextAttributes);
   performance.mark('context');
@@ -74,9 +83,7 @@ async function begin() {
   moments.grow(state);
   const stage = new Stage(canvas, gl, run);
   performance.mark('stage');
-  const glb = await asked[2];
-  performance.mark('glb');
-  await stage.load(glb);
+  stage.load(bodies);
   performance.mark('pieces');
   const player = new Player(stage, moments, run, source);
   player.onFirst = () => {

@@ -14,7 +14,7 @@ const white = new DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1, RGBAFo
 white.needsUpdate = true;
 
 /** @param {Uint8Array} bytes binary glTF @returns {Promise<{name: string, meshes: Mesh[]}[]>} in the order of the nodes */
-async function readBodies(bytes) {
+export async function readBodies(bytes) {
   const {buffer} = bytes.byteOffset === 0 && bytes.byteLength === bytes.buffer.byteLength ? bytes : bytes.slice();
   const {scene} = await new GLTFLoader().parseAsync(buffer, '');
   return scene.children.map(node => ({
@@ -53,9 +53,10 @@ export class Pieces {
     };
   }
 
-  async load(bytes) {
+  /** @param read what readBodies returns */
+  load(read) {
     const byMaterial = new Map();
-    for (const {name, meshes} of await readBodies(bytes)) {
+    for (const {name, meshes} of read) {
       const body = this.numbers.get(name);
       if (body === undefined) continue;
       for (const mesh of meshes) {

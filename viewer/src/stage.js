@@ -80,12 +80,6 @@ export class Stage {
     // The card begins with these while the pieces are still on their way.
     for (const mesh of [this.sky, this.develop]) this.renderer.compile(mesh, this.flat);
     this.canDrawGas = false;
-    const canWait = this.renderer.extensions.has('KHR_parallel_shader_compile');
-    const compiled = mesh => this.renderer[canWait ? 'compileAsync' : 'compile'](mesh, this.flat);
-    Promise.all([this.gasPass, this.blur].map(compiled)).then(() => {
-      this.canDrawGas = true;
-      this.onGas?.();
-    });
   }
 
   makeLayers() {
@@ -133,11 +127,21 @@ export class Stage {
     this.setLamps();
   }
 
-  async load(glb) {
-    await this.pieces.load(glb);
+  load(bodies) {
+    this.pieces.load(bodies);
     for (const mesh of this.pieces.solids) this.solids.add(mesh);
     for (const mesh of this.pieces.glasses) this.glasses.add(mesh);
     for (const scene of [this.solids, this.glasses]) this.renderer.compile(scene, this.camera);
+    this.compileGas();  // after what the first picture waits for
+  }
+
+  compileGas() {
+    const canWait = this.renderer.extensions.has('KHR_parallel_shader_compile');
+    const compiled = mesh => this.renderer[canWait ? 'compileAsync' : 'compile'](mesh, this.flat);
+    Promise.all([this.gasPass, this.blur].map(compiled)).then(() => {
+      this.canDrawGas = true;
+      this.onGas?.();
+    });
   }
 
   setGas(gas) {
