@@ -18,9 +18,11 @@ struct Walk {
   Vec3f throughput{1, 1, 1};
   float density = 0;   ///< [1/sr] with which its direction was drawn; 0 for a single one: camera, mirror, smooth glass
   bool direct = true;  ///< nothing but mirrors and smooth glass since the camera
-  int bounces = 0;     ///< off surfaces and smoke
-  int mirrors = 0;     ///< and smooth glass
-  int splits = 0;      ///< mirrors and glass surfaces at which both ways may still be followed
+  bool towardsFire = false;  ///< drawn to find fire alone: ends where light is scattered
+  float fireShare = 1;       ///< of the fire it finds that counts, where a way towards fire finds it as well
+  int bounces = 0;           ///< off surfaces and smoke
+  int mirrors = 0;           ///< and smooth glass
+  int splits = 0;            ///< mirrors and glass surfaces at which both ways may still be followed
 
   Vec3f at(float distance) const { return ray.origin + ray.direction * distance; }
   void onward(const Vec3f& from, const Vec3f& direction, float near) {
@@ -35,7 +37,7 @@ float share(float found, float drawn) { return found == 0 ? 1 : found / (found +
 
 class PathTracer {
  public:
-  PathTracer(const PathWorld& world, float phase, SampleSequence& numbers)
+  PathTracer(const PathWorld& world, float phase, const SampleSequence& numbers)
       : world_(world), phase_(phase), resolution_(world.geometry.resolution()), numbers_(numbers) {}
   Vec3f follow(Walk walk) { return follow(walk, world_.geometry.find(walk.ray)); }
   /// `found`: what the walk meets first.
@@ -45,7 +47,11 @@ class PathTracer {
   enum class Fate { surface, scattered, ended };
   Fate crossGas(Walk& walk, float far, Vec3f& sum);
   Fate crossGasSeen(Walk& walk, const GasPath& path, Vec3f& sum);
+  Vec3f followAside(const Walk& walk) { return PathTracer(world_, phase_, numbers_.branch()).follow(walk); }
   bool scatterInSmoke(Walk& walk, const Vec3f& place, Vec3f& sum);
+  std::optional<FireCones> fireFrom(const Vec3f& place, const Vec3f& normal) const;
+  template <class From, class Scatter>
+  Vec3f firelight(Walk walk, const FireCones& fire, const From& from, const Scatter& scatter);
   Vec3f beyond(const Walk& walk) const;
   Vec3f ownLight(const Walk& walk, const SurfaceHit& hit) const;
   bool meetSurface(Walk& walk, const SurfaceHit& hit, Vec3f& sum);
@@ -59,7 +65,7 @@ class PathTracer {
 
   const PathWorld& world_;
   float phase_, resolution_;
-  SampleSequence& numbers_;
+  SampleSequence numbers_;
 };
 
 Vec3f PathTracer::follow(Walk walk, FoundTriangle found) {
@@ -69,7 +75,7 @@ Vec3f PathTracer::follow(Walk walk, FoundTriangle found) {
     const Fate fate = crossGas(walk, far, sum);
     if (fate == Fate::ended) return sum;
     if (fate == Fate::scattered) continue;
-    if (found.isNone()) return sum + walk.throughput * beyond(walk);
+    if (found.isNone()) return walk.towardsFire ? sum : sum + walk.throughput * beyond(walk);
     if (!meetSurface(walk, world_.geometry.surfaceAt(found), sum) || !survives(walk)) return sum;
   }
 }
@@ -88,12 +94,10 @@ PathTracer::Fate PathTracer::crossGas(Walk& walk, float far, Vec3f& sum) {
   if (!world_.gas) return Fate::surface;
   const GasPath path{walk.ray.origin, walk.ray.direction, walk.ray.near, far, phase_};
   if (walk.direct) return crossGasSeen(walk, path, sum);
-  const bool shared = walk.density > 0 && world_.fire && !world_.fire->isDark();
-  const GasPassage passage =
-      shared ? world_.gas->marchShared(path, walk.density, *world_.fire) : world_.gas->march(path);
-  sum += walk.throughput * passage.light;
+  const GasPassage passage = world_.gas->march(path);
+  sum += walk.throughput * passage.light * walk.fireShare;
   if (passage.transmittance == 1) return Fate::surface;
-  if (world_.smokeAlbedo == Vec3f{}) {
+  if (walk.towardsFire || world_.smokeAlbedo == Vec3f{}) {
     walk.throughput *= passage.transmittance;
     return passage.transmittance > 0 ? Fate::surface : Fate::ended;
   }
@@ -111,7 +115,7 @@ PathTracer::Fate PathTracer::crossGasSeen(Walk& walk, const GasPath& path, Vec3f
     Walk scattered = walk;
     scattered.throughput *= 1 - passage.transmittance;
     const float distance = world_.gas->distanceAtOpacity(path, passage.transmittance, numbers_.number());
-    if (scatterInSmoke(scattered, walk.at(distance), sum)) sum += follow(scattered);
+    if (scatterInSmoke(scattered, walk.at(distance), sum)) sum += followAside(scattered);
   }
   walk.throughput *= passage.transmittance;
   return passage.transmittance > 0 ? Fate::surface : Fate::ended;
@@ -126,13 +130,41 @@ bool PathTracer::scatterInSmoke(Walk& walk, const Vec3f& place, Vec3f& sum) {
   };
   walk.throughput = walk.throughput * world_.smokeAlbedo;
   sum += walk.throughput * ArrivingLights(world_, place, walk.ray.time, phase_, returned).sum(numbers_);
+  const std::optional<FireCones> fire = fireFrom(place, {});
+  if (fire)
+    sum += firelight(
+        walk, *fire, [&](const Vec3f&) { return place; }, returned);
   const Vec2<float> where = numbers_.pair();
   const Vec3f next = samplePhase(world_.anisotropy, onward, where.x, where.y);
   walk.density = phaseFunction(world_.anisotropy, dot(onward, next));
+  walk.fireShare = fire ? share(walk.density, fire->density(next)) : 1;
   walk.onward(place, next, 0);
   walk.direct = false;
   ++walk.bounces;
   return true;
+}
+
+std::optional<FireCones> PathTracer::fireFrom(const Vec3f& place, const Vec3f& normal) const {
+  if (!world_.fire || world_.fire->isDark()) return std::nullopt;
+  const FireCones fire(*world_.fire, place, normal);
+  return fire.isDark() ? std::nullopt : std::optional(fire);
+}
+
+/// Light of the fire along one way drawn towards it. What it gathers on its whole way, through glass and in mirrors
+/// too, counts by its share of the two ways that may go there: this one and the one on which the path goes on (after
+/// Simon et al. 2017). `from(direction)`: where it begins.
+template <class From, class Scatter>
+Vec3f PathTracer::firelight(Walk walk, const FireCones& fire, const From& from, const Scatter& scatter) {
+  const float choice = numbers_.number();
+  const Vec3f direction = fire.sample(choice, numbers_.pair());
+  const Returned returned = scatter(direction);
+  if (returned.value == Vec3f{}) return {};
+  walk.throughput = walk.throughput * returned.value / (fire.density(direction) + returned.density);
+  walk.onward(from(direction), direction, resolution_);
+  walk.towardsFire = true;
+  walk.fireShare = 1;
+  walk.direct = false;
+  return followAside(walk);
 }
 
 Vec3f PathTracer::ownLight(const Walk& walk, const SurfaceHit& hit) const {
@@ -145,7 +177,7 @@ Vec3f PathTracer::ownLight(const Walk& walk, const SurfaceHit& hit) const {
 
 bool PathTracer::meetSurface(Walk& walk, const SurfaceHit& hit, Vec3f& sum) {
   if (world_.materials[hit.material].settings.glass) return meetGlass(walk, hit, sum);
-  sum += walk.throughput * ownLight(walk, hit);
+  if (!walk.towardsFire) sum += walk.throughput * ownLight(walk, hit);
   return meetOpaque(walk, hit, sum);
 }
 
@@ -181,7 +213,7 @@ bool PathTracer::meetSmoothGlass(Walk& walk, const SurfaceHit& hit, const Vec3f&
     Walk other = walk;
     other.throughput *= mirrorShare;
     other.onward(place, reflected(direction, normal), resolution_);
-    sum += follow(other);
+    sum += followAside(other);
     walk.throughput *= 1 - mirrorShare;
   } else if (through) {
     reflects = numbers_.number() < mirrorShare;
@@ -223,14 +255,14 @@ bool PathTracer::mirror(Walk& walk, const SurfaceHit& hit, const Vec3f& normal, 
     return true;
   }
   --other.splits;
-  sum += follow(other);
+  sum += followAside(other);
   return false;
 }
 
 /// Light of the lights, and the way on.
 bool PathTracer::scatter(Walk& walk, const SurfaceHit& hit, const SurfaceScattering& surface, const Vec3f& normal,
                          Vec3f& sum) {
-  if (walk.bounces >= world_.settings.maxBounces) return false;
+  if (walk.towardsFire || walk.bounces >= world_.settings.maxBounces) return false;
   const Axes axes(normal, hit.alongU);
   const Vec3f out = axes.toLocal(-walk.ray.direction), place = walk.at(hit.distance);
   const Vec3f face = dot(walk.ray.direction, hit.normal) > 0 ? -hit.normal : hit.normal;
@@ -242,6 +274,12 @@ bool PathTracer::scatter(Walk& walk, const SurfaceHit& hit, const SurfaceScatter
   };
   sum += walk.throughput *
          ArrivingLights(world_, place + face * resolution_, walk.ray.time, phase_, returned).sum(numbers_);
+  const bool oneSided = !std::holds_alternative<RoughDielectric>(surface);
+  const std::optional<FireCones> fire = fireFrom(place, oneSided ? normal : Vec3f{});
+  const auto beside = [&](const Vec3f& direction) {
+    return place + (dot(direction, face) > 0 ? face : -face) * resolution_;
+  };
+  if (fire) sum += firelight(walk, *fire, beside, returned);
   const Vec2<float> where = numbers_.pair();
   const auto next = sample(surface, out, {where.x, where.y, numbers_.number()});
   if (!next) return false;
@@ -249,17 +287,19 @@ bool PathTracer::scatter(Walk& walk, const SurfaceHit& hit, const SurfaceScatter
   if (leaks(direction, next->in.z)) return false;
   walk.throughput = walk.throughput * next->weight;
   walk.density = next->density;
+  walk.fireShare = fire ? share(walk.density, fire->density(direction)) : 1;
   walk.direct = false;
   ++walk.bounces;
-  walk.onward(place + (next->in.z > 0 ? face : -face) * resolution_, direction, resolution_);
+  walk.onward(beside(direction), direction, resolution_);
   return true;
 }
 
 /// Faint paths end at random; those that go on count for them (Arvo & Kirk 1990).
 bool PathTracer::survives(Walk& walk) {
-  const float chance = std::min(largest(walk.throughput), 1.0f);
-  if (!(chance > 0)) return false;
-  if (walk.bounces + walk.mirrors < world_.settings.rouletteFrom) return true;
+  const float rest = largest(walk.throughput), faint = static_cast<float>(world_.settings.faint);
+  if (!(rest > 0)) return false;
+  if (rest >= faint) return true;
+  const float chance = rest / faint;
   if (numbers_.number() >= chance) return false;
   walk.throughput *= 1 / chance;
   return true;

@@ -26,10 +26,10 @@ struct Room {
   Environment environment;
   std::vector<LightSource> lights{};
   const GasMedium* gas = nullptr;
-  const FireSampler* fire = nullptr;
+  const FireDirections* fire = nullptr;
   Vec3f albedo{};
   float anisotropy = 0;
-  PathIntegrator settings{200, 8, 2};
+  PathIntegrator settings{200, 0.05, 2};
 
   /// Along rays given by `rayOf(sequence)`, of the red channel.
   template <class RayOf>
@@ -230,7 +230,7 @@ TEST(PathReciprocity, LightAndCameraMayBeExchanged) {
 // Brute force: the same paths without drawing places in the fire.
 TEST(FireInADarkRoom, LightsTheWallsAsManyBlindPathsSay) {
   const GasMedium gas = fireBall();
-  const FireSampler fire(gas);
+  const FireDirections fire(gas);
   Room room(darkRoom("grey"), fewMaterials(), black);
   room.gas = &gas;
   room.albedo = {0.2f, 0.2f, 0.2f};
@@ -252,7 +252,7 @@ TEST(FireInADarkRoom, LightsTheWallsAsManyBlindPathsSay) {
 // The same over whole walls: the light that each of the six returns straight ahead, mean over its area.
 TEST(FireInADarkRoom, LightsEachWallWithinTwoPercentOfBruteForce) {
   const GasMedium gas = fireBall();
-  const FireSampler fire(gas);
+  const FireDirections fire(gas);
   Room room(darkRoom("grey"), fewMaterials(), black);
   room.gas = &gas;
   room.settings.maxBounces = 2;
@@ -281,7 +281,7 @@ TEST(FireInADarkRoom, LightsEachWallWithinTwoPercentOfBruteForce) {
 TEST(FireInADarkRoom, NoPlaceOfItCountsMoreThanFireAllAround) {
   constexpr float glow = 4, grey = 0.6f;
   const GasMedium gas = gasCube(60, {glow, glow, glow});
-  const FireSampler fire(gas);
+  const FireDirections fire(gas);
   Room room({bodyOf("wall", boxMesh({0.1, 8, 8}), "grey", {{1.06, 0, 0}, {}})}, fewMaterials(), black);
   room.gas = &gas;
   room.fire = &fire;
