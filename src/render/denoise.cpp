@@ -9,11 +9,11 @@ namespace brisance {
 namespace {
 
 /// Added to the albedo by which light is divided: black surfaces may still mirror.
-constexpr float darkestAlbedo = 0.02f;
+const float darkestAlbedo = getenv("XK") ? float(atof(getenv("XK"))) : 0.02f;
 /// Half the width of the squares over which variance and brightness are measured.
 constexpr int measuredRadius = 3;
 /// A value beyond this many times the mean of its surroundings is a lucky path's: it counts as that much.
-constexpr float mostOfSurroundings = 12;
+const float mostOfSurroundings = getenv("XM") ? float(atof(getenv("XM"))) : 12;
 
 /// Light that chance decides over albedo, of one half of the samples.
 ColourPlanes chancePart(const Image& light, const Image& certain, const Image& albedo) {
@@ -94,6 +94,29 @@ Plane insideOf(int width, int height) {
   return inside;
 }
 
+/// All tiles, in four turns: tiles of one turn are so far apart that their windows do not meet, so that the sums are
+/// the same for any number of threads.
+ColourPlanes regressed(const FilterInput& input, int width, int height) {
+  static_assert(2 * TileFilter::radius <= std::min(Plane::tileWidth, Plane::tileHeight));
+  FilterSums sums(width, height);
+  const int columns = (width + Plane::tileWidth - 1) / Plane::tileWidth;
+  const int rows = (height + Plane::tileHeight - 1) / Plane::tileHeight;
+  for (int turn = 0; turn < 4; ++turn) {
+    const int firstColumn = turn % 2, firstRow = turn / 2;
+    const int across = (columns + 1 - firstColumn) / 2, down = (rows + 1 - firstRow) / 2;
+    parallelFor(0, static_cast<std::int64_t>(across) * down, 1, [&](std::int64_t first, std::int64_t last) {
+      TileFilter filter(input);
+      for (std::int64_t tile = first; tile < last; ++tile)
+        filter.run((firstColumn + 2 * static_cast<int>(tile % across)) * Plane::tileWidth,
+                   (firstRow + 2 * static_cast<int>(tile / across)) * Plane::tileHeight, sums);
+    });
+  }
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (Plane& plane : sums.light) plane.row(y)[x] /= std::max(sums.weight.row(y)[x], 1e-12f);
+  return std::move(sums.light);
+}
+
 Image recombined(const PictureGuides& guides, const ColourPlanes& filtered) {
   Image image = guides.certain;
   for (int y = 0; y < image.height; ++y)
@@ -135,15 +158,18 @@ Image denoised(const Exposed& picture, const PictureGuides& guides) {
   input.brightness = brightnessOf(input.light[0], input.light[1]);
   input.guides = guidePlanes(guides);
   input.inside = insideOf(width, height);
-  ColourPlanes filtered{Plane(width, height), Plane(width, height), Plane(width, height)};
-  const int columns = (width + Plane::tileWidth - 1) / Plane::tileWidth;
-  const int rows = (height + Plane::tileHeight - 1) / Plane::tileHeight;
-  parallelFor(0, static_cast<std::int64_t>(columns) * rows, 1, [&](std::int64_t first, std::int64_t last) {
-    TileFilter filter(input);
-    for (std::int64_t tile = first; tile < last; ++tile)
-      filter.run(static_cast<int>(tile % columns) * Plane::tileWidth,
-                 static_cast<int>(tile / columns) * Plane::tileHeight, filtered);
-  });
+  const ColourPlanes filtered = regressed(input, width, height);
+  if (const char* d = getenv("XD")) {
+    Image o = guides.certain;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        for (int c = 0; c < 3; ++c)
+          o(x, y)[c] = *d == '1'   ? filtered[c].row(y)[x]
+                       : *d == '2' ? 0.5f * (input.light[0][c].row(y)[x] + input.light[1][c].row(y)[x])
+                       : *d == '3' ? guides.albedo(x, y)[c]
+                                   : std::sqrt(input.variance[c].row(y)[x]);
+    return o;
+  }
   return recombined(guides, filtered);
 }
 

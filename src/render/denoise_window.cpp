@@ -1,7 +1,7 @@
 #include "render/denoise_window.h"
 
-#include "base/vector_path.h"
 #include <cstdlib>
+#include "base/vector_path.h"
 
 namespace brisance {
 namespace {
@@ -24,10 +24,10 @@ TileFilter::TileFilter(const FilterInput& input)
       weights_(static_cast<std::size_t>(neighbours) * tilePixels),
       compared_(comparedWidth * comparedHeight) {}
 
-void TileFilter::run(int left, int top, ColourPlanes& filtered) {
+void TileFilter::run(int left, int top, FilterSums& sums) {
   for (int half = 0; half < 2; ++half) {
     runWide([&] { weigh(1 - half, left, top); });
-    for (int row = 0; row < Plane::tileHeight; ++row) runWide([&] { regress(half, left, top + row, row, filtered); });
+    for (int row = 0; row < Plane::tileHeight; ++row) runWide([&] { regress(half, left, top + row, row, sums); });
   }
 }
 
@@ -67,25 +67,35 @@ void TileFilter::weighByPatches(int neighbour, int left, int top, int dx, int dy
     for (int r = row; r <= row + 2 * patchRadius; ++r)
       for (int n = 0; n < comparedWidth; ++n) columns[n] += compared_[r * comparedWidth + n];
     float* to = weights_.data() + neighbour * tilePixels + row * Plane::tileWidth;
-    const float* inside = input_.inside.row(top + row + dy) + left + dx;
+    const float *inside = input_.inside.row(top + row) + left,
+                *insideThere = input_.inside.row(top + row + dy) + left + dx;
     for (int n = 0; n < Plane::tileWidth; ++n) {
       float sum = 0;
       for (int d = 0; d <= 2 * patchRadius; ++d) sum += columns[n + d];
       const float rest = std::clamp(1 - 0.25f * sum * share, 0.0f, 1.0f);
-      to[n] = rest * rest * rest * rest * inside[n];
+      to[n] = rest * rest * rest * rest * inside[n] * insideThere[n];
     }
   }
 }
 
-void TileFilter::regress(int half, int left, int y, int rowInTile, ColourPlanes& filtered) {
+void TileFilter::regress(int half, int left, int y, int rowInTile, FilterSums& sums) {
   for (int x = 0; x < Plane::tileWidth; x += lanes) {
-    gather(half, left + x, y, weights_.data() + rowInTile * Plane::tileWidth + x, fit_);
+    const float* weights = weights_.data() + rowInTile * Plane::tileWidth + x;
+    gather(half, left + x, y, weights, fit_);
     restrain(left + x, y, fit_);
     solve(fit_);
-    for (int c = 0; c < 3; ++c) {
-      float* to = filtered[c].row(y) + left + x;
-      for (int n = 0; n < lanes; ++n) to[n] += 0.5f * fit_.right[c][0][n];
-    }
+    spread(left + x, y, weights, fit_, sums);
+  }
+}
+
+/// What the unknowns are multiplied by at a neighbour.
+void TileFilter::factorsAt(int x, int y, int dx, int dy, Factors& factors) const {
+  std::fill_n(factors[0], lanes, 1.0f);
+  std::fill_n(factors[1], lanes, static_cast<float>(dx) / radius);
+  std::fill_n(factors[2], lanes, static_cast<float>(dy) / radius);
+  for (int g = 0; g < guideCount; ++g) {
+    const float *here = input_.guides[g].row(y) + x, *there = input_.guides[g].row(y + dy) + x + dx;
+    for (int n = 0; n < lanes; ++n) factors[3 + g][n] = there[n] - here[n];
   }
 }
 
@@ -93,16 +103,11 @@ void TileFilter::regress(int half, int left, int y, int rowInTile, ColourPlanes&
 void TileFilter::gather(int half, int x, int y, const float* weights, Fit& fit) const {
   std::fill_n(&fit.matrix[0][0], products * lanes, 0.0f);
   std::fill_n(&fit.right[0][0][0], 3 * unknowns * lanes, 0.0f);
-  float factors[unknowns][lanes], weighed[lanes];
+  Factors factors;
+  float weighed[lanes];
   for (int dy = -radius; dy <= radius; ++dy)
     for (int dx = -radius; dx <= radius; ++dx, weights += tilePixels) {
-      std::fill_n(factors[0], lanes, 1.0f);
-      std::fill_n(factors[1], lanes, static_cast<float>(dx) / radius);
-      std::fill_n(factors[2], lanes, static_cast<float>(dy) / radius);
-      for (int g = 0; g < guideCount; ++g) {
-        const float *here = input_.guides[g].row(y) + x, *there = input_.guides[g].row(y + dy) + x + dx;
-        for (int n = 0; n < lanes; ++n) factors[3 + g][n] = there[n] - here[n];
-      }
+      factorsAt(x, y, dx, dy, factors);
       const float* light[3];
       for (int c = 0; c < 3; ++c) light[c] = input_.light[half][c].row(y + dy) + x + dx;
       int product = 0;
@@ -113,6 +118,24 @@ void TileFilter::gather(int half, int x, int y, const float* weights, Fit& fit) 
         for (int c = 0; c < 3; ++c)
           for (int n = 0; n < lanes; ++n) fit.right[c][i][n] += weighed[n] * light[c][n];
       }
+    }
+}
+
+/// Each fit tells the light of all neighbours that count for it (collaborative regression, Bitterli et al. 2016).
+void TileFilter::spread(int x, int y, const float* weights, const Fit& fit, FilterSums& sums) const {
+  Factors factors;
+  for (int dy = -radius; dy <= radius; ++dy)
+    for (int dx = -radius; dx <= radius; ++dx, weights += tilePixels) {
+      factorsAt(x, y, dx, dy, factors);
+      for (int c = 0; c < 3; ++c) {
+        float value[lanes] = {};
+        for (int i = 0; i < unknowns; ++i)
+          for (int n = 0; n < lanes; ++n) value[n] += fit.right[c][i][n] * factors[i][n];
+        float* to = sums.light[c].row(y + dy) + x + dx;
+        for (int n = 0; n < lanes; ++n) to[n] += weights[n] * value[n];
+      }
+      float* to = sums.weight.row(y + dy) + x + dx;
+      for (int n = 0; n < lanes; ++n) to[n] += weights[n];
     }
 }
 
@@ -131,7 +154,7 @@ void TileFilter::restrain(int x, int y, Fit& fit) const {
   }
 }
 
-/// Cholesky's decomposition of all lanes, and both substitutions; the values end in right[c][0].
+/// Cholesky's decomposition of all lanes, and both substitutions; the unknowns end in right[c].
 void TileFilter::solve(Fit& fit) {
   const auto at = [&fit](int i, int j) { return fit.matrix[i * (i + 1) / 2 + j]; };
   float* right[3][unknowns];
