@@ -9,11 +9,11 @@ namespace brisance {
 namespace {
 
 /// Added to the albedo by which light is divided: black surfaces may still mirror.
-const float darkestAlbedo = getenv("XK") ? float(atof(getenv("XK"))) : 0.02f;
+constexpr float darkestAlbedo = 0.005f;
 /// Half the width of the squares over which variance and brightness are measured.
-constexpr int measuredRadius = 3;
+constexpr int measuredRadius = 3, measuredPixels = (2 * measuredRadius + 1) * (2 * measuredRadius + 1);
 /// A value beyond this many times the mean of its surroundings is a lucky path's: it counts as that much.
-const float mostOfSurroundings = getenv("XM") ? float(atof(getenv("XM"))) : 12;
+constexpr float mostOfSurroundings = 4;
 
 /// Light that chance decides over albedo, of one half of the samples.
 ColourPlanes chancePart(const Image& light, const Image& certain, const Image& albedo) {
@@ -30,7 +30,7 @@ ColourPlanes chancePart(const Image& light, const Image& certain, const Image& a
 
 /// Limits what is far brighter than all around it.
 void limitOutliers(ColourPlanes& planes) {
-  constexpr float others = (2 * measuredRadius + 1) * (2 * measuredRadius + 1) - 1;
+  constexpr float others = measuredPixels - 1;
   for (Plane& plane : planes) {
     const Plane mean = boxMean(plane, measuredRadius);
     for (int y = 0; y < plane.height(); ++y)
@@ -60,15 +60,25 @@ ColourPlanes varianceOfHalf(const ColourPlanes& a, const ColourPlanes& b) {
   return variance;
 }
 
-Plane brightnessOf(const ColourPlanes& a, const ColourPlanes& b) {
-  Plane sum(a[0].width(), a[0].height());
+/// Mean over the colours and the surroundings.
+Plane brightnessOf(const ColourPlanes& light) {
+  Plane sum(light[0].width(), light[0].height());
   for (int y = 0; y < sum.height(); ++y)
     for (int x = 0; x < sum.width(); ++x)
-      for (int c = 0; c < 3; ++c) sum.row(y)[x] += (a[c].row(y)[x] + b[c].row(y)[x]) / 6;
+      for (int c = 0; c < 3; ++c) sum.row(y)[x] += light[c].row(y)[x] / 3;
   sum.fillRim();
   Plane mean = boxMean(sum, measuredRadius);
   mean.fillRim();
   return mean;
+}
+
+/// a + b, times a factor.
+Plane sumOf(const Plane& a, const Plane& b, float factor) {
+  Plane sum(a.width(), a.height());
+  for (int y = 0; y < sum.height(); ++y)
+    for (int x = 0; x < sum.width(); ++x) sum.row(y)[x] = factor * (a.row(y)[x] + b.row(y)[x]);
+  sum.fillRim();
+  return sum;
 }
 
 std::vector<Plane> guidePlanes(const PictureGuides& guides) {
@@ -155,21 +165,13 @@ Image denoised(const Exposed& picture, const PictureGuides& guides) {
     limitOutliers(input.light[half]);
   }
   input.variance = varianceOfHalf(input.light[0], input.light[1]);
-  input.brightness = brightnessOf(input.light[0], input.light[1]);
+  for (int half = 0; half < 2; ++half) input.brightnessOfHalf[half] = brightnessOf(input.light[half]);
+  input.brightness = sumOf(input.brightnessOfHalf[0], input.brightnessOfHalf[1], 0.5f);
+  const Plane ofOne = brightnessOf(input.variance);
+  input.brightnessVariance = sumOf(ofOne, ofOne, 0.5f / measuredPixels);
   input.guides = guidePlanes(guides);
   input.inside = insideOf(width, height);
   const ColourPlanes filtered = regressed(input, width, height);
-  if (const char* d = getenv("XD")) {
-    Image o = guides.certain;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        for (int c = 0; c < 3; ++c)
-          o(x, y)[c] = *d == '1'   ? filtered[c].row(y)[x]
-                       : *d == '2' ? 0.5f * (input.light[0][c].row(y)[x] + input.light[1][c].row(y)[x])
-                       : *d == '3' ? guides.albedo(x, y)[c]
-                                   : std::sqrt(input.variance[c].row(y)[x]);
-    return o;
-  }
   return recombined(guides, filtered);
 }
 

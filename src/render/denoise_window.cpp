@@ -1,6 +1,5 @@
 #include "render/denoise_window.h"
 
-#include <cstdlib>
 #include "base/vector_path.h"
 
 namespace brisance {
@@ -8,14 +7,21 @@ namespace {
 
 constexpr int tilePixels = Plane::tileWidth * Plane::tileHeight;
 /// How far apart in deviations of the noise surroundings may be and still count.
-const float tolerance = getenv("XT") ? float(atof(getenv("XT"))) : 0.6f;
-const float XA = getenv("XA") ? float(atof(getenv("XA"))) : 1;
+constexpr float tolerance = 0.6f;
 /// Differences of this share of the brightness count as none.
 constexpr float indistinct = 0.01f;
+/// The same of means over surroundings.
+constexpr float meanTolerance = 2, meanIndistinct = 0.1f;
 /// By how much of the brightness the light is expected to change over the window, and along each guide from 0 to 1.
 constexpr float placeSlope = 0.3f, guideSlope = 1;
 /// Keeps the normal equations of a single neighbour solvable.
 constexpr float leastRestraint = 1e-4f;
+
+/// (1 - d / 4)^4 instead of e^-d.
+inline float fading(float difference) {
+  const float rest = std::clamp(1 - 0.25f * difference, 0.0f, 1.0f), squared = rest * rest;
+  return squared * squared;
+}
 
 }  // namespace
 
@@ -35,7 +41,9 @@ void TileFilter::weigh(int half, int left, int top) {
   for (int dy = -radius; dy <= radius; ++dy)
     for (int dx = -radius; dx <= radius; ++dx) {
       compare(half, left, top, dx, dy);
-      weighByPatches((dy + radius) * windowWidth + dx + radius, left, top, dx, dy);
+      const int neighbour = (dy + radius) * windowWidth + dx + radius;
+      weighByPatches(neighbour, left, top, dx, dy);
+      weighByMeans(half, neighbour, left, top, dx, dy);
     }
 }
 
@@ -59,7 +67,7 @@ void TileFilter::compare(int half, int left, int top, int dx, int dy) {
   }
 }
 
-/// (1 - d / 4)^4 instead of e^-d of the mean difference d over a patch.
+/// By the mean difference over a patch.
 void TileFilter::weighByPatches(int neighbour, int left, int top, int dx, int dy) {
   constexpr float share = 1.0f / (3 * (2 * patchRadius + 1) * (2 * patchRadius + 1));
   for (int row = 0; row < Plane::tileHeight; ++row) {
@@ -72,8 +80,24 @@ void TileFilter::weighByPatches(int neighbour, int left, int top, int dx, int dy
     for (int n = 0; n < Plane::tileWidth; ++n) {
       float sum = 0;
       for (int d = 0; d <= 2 * patchRadius; ++d) sum += columns[n + d];
-      const float rest = std::clamp(1 - 0.25f * sum * share, 0.0f, 1.0f);
-      to[n] = rest * rest * rest * rest * inside[n] * insideThere[n];
+      to[n] = fading(sum * share) * inside[n] * insideThere[n];
+    }
+  }
+}
+
+/// Means over the surroundings have little noise: they tell a shadow from the light beside it where single pixels do
+/// not.
+void TileFilter::weighByMeans(int half, int neighbour, int left, int top, int dx, int dy) {
+  for (int row = 0; row < Plane::tileHeight; ++row) {
+    const int y = top + row;
+    const Plane &means = input_.brightnessOfHalf[half], &noises = input_.brightnessVariance;
+    const float *mean = means.row(y) + left, *meanThere = means.row(y + dy) + left + dx;
+    const float *noise = noises.row(y) + left, *noiseThere = noises.row(y + dy) + left + dx;
+    float* to = weights_.data() + neighbour * tilePixels + row * Plane::tileWidth;
+    for (int n = 0; n < Plane::tileWidth; ++n) {
+      const float difference = mean[n] - meanThere[n], least = meanIndistinct * mean[n];
+      const float allowed = meanTolerance * meanTolerance * (noise[n] + noiseThere[n]) + least * least + 1e-12f;
+      to[n] *= fading(difference * difference / allowed);
     }
   }
 }
@@ -148,7 +172,7 @@ void TileFilter::restrain(int x, int y, Fit& fit) const {
     const float relative = noise / (brightness * brightness + 1e-12f);
     fit.matrix[0][n] += 1e-6f;
     for (int i = 1; i < unknowns; ++i) {
-      const float slope = i < 3 ? placeSlope : i < 6 ? XA : guideSlope;
+      const float slope = i < 3 ? placeSlope : guideSlope;
       fit.matrix[i * (i + 3) / 2][n] += relative / (slope * slope) + leastRestraint;
     }
   }

@@ -8,11 +8,13 @@
 namespace brisance {
 
 struct FilterInput {
-  std::array<ColourPlanes, 2> light;  ///< of two independent halves of the samples
-  ColourPlanes variance;              ///< of either
-  Plane brightness;                   ///< mean of the light around each pixel
-  std::vector<Plane> guides;          ///< what the light may depend on
-  Plane inside;                       ///< 1 in the picture, 0 around it
+  std::array<ColourPlanes, 2> light;      ///< of two independent halves of the samples
+  ColourPlanes variance;                  ///< of either
+  Plane brightness;                       ///< mean of the light around each pixel
+  std::array<Plane, 2> brightnessOfHalf;  ///< the same of each half,
+  Plane brightnessVariance;               ///< and the variance of those means
+  std::vector<Plane> guides;              ///< what the light may depend on
+  Plane inside;                           ///< 1 in the picture, 0 around it
 };
 
 /// What all regressions say of a pixel: the weighed sum of their values there, and of their weights.
@@ -51,6 +53,7 @@ class TileFilter {
   void weigh(int half, int left, int top);
   void compare(int half, int left, int top, int dx, int dy);
   void weighByPatches(int neighbour, int left, int top, int dx, int dy);
+  void weighByMeans(int half, int neighbour, int left, int top, int dx, int dy);
   void regress(int half, int left, int y, int rowInTile, FilterSums& sums);
   void gather(int half, int x, int y, const float* weights, Fit& fit) const;
   void spread(int x, int y, const float* weights, const Fit& fit, FilterSums& sums) const;

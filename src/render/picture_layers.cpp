@@ -9,7 +9,7 @@ namespace brisance {
 namespace {
 
 /// Guides and what no chance decides cost little beside the light: they have more samples, and no noise is seen of them.
-const int guideSamples = getenv("XG") ? atoi(getenv("XG")) : 64;
+constexpr int guideSamples = 32;
 constexpr float nowhere = 1e10f;  // [m] as Blender has it: infinity survives no filter of a compositor
 
 /// Bodies of one pixel in the order in which they were met.
