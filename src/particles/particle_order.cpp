@@ -29,12 +29,11 @@ struct RowOf {
 void sortByRow(ParticleSet& particles, const Grid3<float>& cells, OrderScratch& scratch) {
   const RowOf rowOf{cells.size, cells.origin, cells.cellSize};
   const std::int64_t count = static_cast<std::int64_t>(particles.size());
-  const auto make = [&](std::int64_t n, std::uint32_t& item) {
-    item = static_cast<std::uint32_t>(n);
-    return rowOf(particles.position[n]);
-  };
-  sortIntoBins(count, static_cast<std::int64_t>(rowOf.size.y) * rowOf.size.z, make, scratch.order);
-  const std::vector<std::uint32_t>& order = scratch.order.items;
+  sortIntoBins(
+      count, static_cast<std::int64_t>(rowOf.size.y) * rowOf.size.z,
+      [&](std::int64_t n) { return rowOf(particles.position[n]); },
+      [](std::int64_t n) { return static_cast<std::uint32_t>(n); }, scratch.order);
+  const AlignedVector<std::uint32_t>& order = scratch.order.items;
   const auto sortField = [&](auto& field, auto& sorted) {
     sorted.resize(field.size());
     parallelFor(0, count, grain, [&](std::int64_t first, std::int64_t last) {
