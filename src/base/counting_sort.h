@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,6 +29,8 @@ struct Binned {
   std::vector<std::uint32_t> groupStart;
 };
 
+constexpr int sortRun = 256;  ///< items that are made at once
+
 namespace detail {
 /// Few enough that their counts stay small beside the items; depends on the items' number alone.
 struct SortBlocks {
@@ -36,12 +39,14 @@ struct SortBlocks {
   explicit SortBlocks(std::int64_t items)
       : number(std::clamp<std::int64_t>(items / smallest, 1, most)), size((items + number - 1) / number) {}
 
-  /// Calls visit(block, n) for all items, a block's on one thread and in their order.
+  /// Calls visit(block, first, end) for runs of at most sortRun items, a block's on one thread and in their order.
   template <class Visit>
-  void forItems(std::int64_t items, const Visit& visit) const {
-    parallelFor(0, number, 1, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t block = first; block < last; ++block)
-        for (std::int64_t n = block * size; n < std::min(items, (block + 1) * size); ++n) visit(block, n);
+  void forRuns(std::int64_t items, const Visit& visit) const {
+    parallelFor(0, number, 1, [&](std::int64_t firstBlock, std::int64_t lastBlock) {
+      for (std::int64_t block = firstBlock; block < lastBlock; ++block) {
+        const std::int64_t end = std::min(items, (block + 1) * size);
+        for (std::int64_t n = block * size; n < end; n += sortRun) visit(block, n, std::min(end, n + sortRun));
+      }
     });
   }
 };
@@ -90,30 +95,38 @@ void sortGroup(Binned<Item>& sorted, std::uint32_t first, std::uint32_t end, std
 }
 }  // namespace detail
 
-/// Sorts the items make(n), n = 0 .. count - 1, into the bins binOf(n) < bins; those of bin -1 are left out. Both are
-/// called from several threads, once for each n. Fewer than 2^32 items. The items are spread over groups of bins and
-/// each group is sorted apart: spread over all bins at once, each would come to a line of memory of its own.
-template <class Item, class BinOf, class Make>
-void sortIntoBins(std::int64_t count, std::int64_t bins, const BinOf& binOf, const Make& make, Binned<Item>& result) {
+/// Sorts items n = 0 .. count - 1, fewer than 2^32: binsOf(first, end, bins) tells the bins of a run of them, each
+/// below `bins` or -1 to leave it out; makeItems(first, end, items) makes them, with whatever for those left out. Both
+/// are called from several threads, once for each run. The items are spread over groups of bins and each group is
+/// sorted apart: spread over all bins at once, each would come to a line of memory of its own.
+template <class Item, class BinsOf, class MakeItems>
+void sortIntoBins(std::int64_t count, std::int64_t bins, const BinsOf& binsOf, const MakeItems& makeItems,
+                  Binned<Item>& result) {
   const detail::SortBlocks blocks(count);
   const detail::BinGroups groups(bins);
   result.binOf.resize(static_cast<std::size_t>(count));
   result.next.assign(static_cast<std::size_t>(blocks.number * groups.number), 0);
-  blocks.forItems(count, [&](std::int64_t block, std::int64_t n) {
-    const auto bin = static_cast<std::int32_t>(binOf(n));
-    result.binOf[n] = bin;
-    if (bin >= 0) ++result.next[block * groups.number + (bin >> groups.shift)];
+  blocks.forRuns(count, [&](std::int64_t block, std::int64_t first, std::int64_t end) {
+    std::uint32_t* counts = result.next.data() + block * groups.number;
+    binsOf(first, end, result.binOf.data() + first);
+    for (std::int64_t n = first; n < end; ++n)
+      if (result.binOf[n] >= 0) ++counts[result.binOf[n] >> groups.shift];
   });
   detail::placeBlocks(blocks.number, groups.number, result.next, result.groupStart);
   const std::uint32_t kept = result.groupStart.back();
   result.grouped.resize(kept);
   result.groupedBinOf.resize(kept);
-  blocks.forItems(count, [&](std::int64_t block, std::int64_t n) {
-    const std::int32_t bin = result.binOf[n];
-    if (bin < 0) return;
-    const std::uint32_t at = result.next[block * groups.number + (bin >> groups.shift)]++;
-    result.grouped[at] = make(n);
-    result.groupedBinOf[at] = bin;
+  blocks.forRuns(count, [&](std::int64_t block, std::int64_t first, std::int64_t end) {
+    std::uint32_t* next = result.next.data() + block * groups.number;
+    std::array<Item, sortRun> items;
+    makeItems(first, end, items.data());
+    for (std::int64_t n = first; n < end; ++n) {
+      const std::int32_t bin = result.binOf[n];
+      if (bin < 0) continue;
+      const std::uint32_t at = next[bin >> groups.shift]++;
+      result.grouped[at] = items[n - first];
+      result.groupedBinOf[at] = bin;
+    }
   });
   result.items.resize(kept);
   result.start.resize(static_cast<std::size_t>(bins) + 1);

@@ -22,37 +22,60 @@ SymmetricFilter filterFor(const ParticleVolumeSettings& settings) {
   return gaussianFilter(deviation, radius);
 }
 
-/// The drawn particles as points, their places counted in cells of the asked volume.
+/// The drawn particles as points, their places counted in cells of the asked volume; runs of them at once.
 struct DrawnPoints {
   const FrameParticles& particles;
   const ParticleVolumeSettings& settings;
   const std::function<float(std::size_t)>& weigh;
   const std::function<Vec3f(float)>& colourOf;
 
-  Vec3d place(std::int64_t n) const {
-    return (Vec3d(particles.position[n]) - settings.corner) / settings.cellSize - Vec3d(.5, .5, .5);
+  /// Of a run, the n-th particle's place along an axis.
+  auto placeAlong(int axis, std::int64_t first) const {
+    const float* places = &particles.position[first].x + axis;
+    return [places, corner = settings.corner[axis], perCell = 1 / settings.cellSize](int n) {
+      return (double(places[3 * n]) - corner) * perCell - .5;
+    };
   }
-  AxisShare share(const Vec3d& place, int axis) const { return axisShare(place[axis], settings.size[axis]); }
-  /// The row of cells, -1 for what is not drawn.
-  std::int64_t rowOf(std::int64_t n) const {
-    const Vec3d half(.5, .5, .5), at = place(n);
-    const Box3 inside{Vec3d() - half, Vec3d(settings.size) - half};
-    if (!(weigh(n) > 0) || !inside.contains(at)) return -1;
-    return brisance::rowOf(share(at, 1), share(at, 2), settings.size.y);
+  /// Rows of cells, -1 for what is not drawn.
+  void rowsOf(std::int64_t first, std::int64_t end, std::int32_t* rows) const {
+    const int count = static_cast<int>(end - first);
+    float mass[sortRun];
+    for (int n = 0; n < count; ++n) mass[n] = weigh(first + n);
+    runWide([&] {
+      const ShareRun share = shares(first, count);
+      for (int n = 0; n < count; ++n) rows[n] = mass[n] > 0 ? rowOf(share[n], settings.size.y) : -1;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto place = placeAlong(axis, first);
+        const double size = settings.size[axis];
+        for (int n = 0; n < count; ++n) rows[n] = place(n) >= -.5 && place(n) <= size - .5 ? rows[n] : -1;
+      }
+    });
   }
-  Point operator()(std::int64_t n) const {
-    const float mass = weigh(n);
-    const Vec3f colour = colourOf(particles.temperature[n]) * mass;
-    const Vec3d at = place(n);
-    return {{share(at, 0), share(at, 1), share(at, 2)}, {mass, colour.x, colour.y, colour.z}};
+  void make(std::int64_t first, std::int64_t end, Point* points) const {
+    const int count = static_cast<int>(end - first);
+    ShareRun share;
+    runWide([&] { share = shares(first, count); });
+    for (int n = 0; n < count; ++n) {
+      const float mass = weigh(first + n);
+      const Vec3f colour = colourOf(particles.temperature[first + n]) * mass;
+      points[n] = {share[n], {mass, colour.x, colour.y, colour.z}};
+    }
+  }
+
+ private:
+  ShareRun shares(std::int64_t first, int count) const {
+    ShareRun share;
+    for (int axis = 0; axis < 3; ++axis) share.set(axis, count, settings.size[axis], placeAlong(axis, first));
+    return share;
   }
 };
 
 void sortDrawn(const DrawnPoints& drawn, Binned<Point>& points) {
   const std::int64_t rows = static_cast<std::int64_t>(drawn.settings.size.y) * drawn.settings.size.z;
   sortIntoBins(
-      static_cast<std::int64_t>(drawn.particles.position.size()), rows, [&](std::int64_t n) { return drawn.rowOf(n); },
-      [&](std::int64_t n) { return drawn(n); }, points);
+      static_cast<std::int64_t>(drawn.particles.position.size()), rows,
+      [&](std::int64_t first, std::int64_t end, std::int32_t* bins) { drawn.rowsOf(first, end, bins); },
+      [&](std::int64_t first, std::int64_t end, Point* made) { drawn.make(first, end, made); }, points);
 }
 
 /// Cells of the asked volume, by their numbers.

@@ -24,6 +24,31 @@ inline AxisShare axisShare(double place, int cells) {
 }
 using CellShares = std::array<AxisShare, 3>;
 
+/// The same for a run of points, one array per number, so that loops over them become loops over vectors.
+struct ShareRun {
+  std::int32_t lower[3][sortRun];
+  float fraction[3][sortRun];
+
+  /// place(n) of n = 0 .. count - 1 along an axis.
+  template <class Place>
+  void set(int axis, int count, int cells, const Place& place) {
+    for (int n = 0; n < count; ++n) {
+      const AxisShare share = axisShare(place(n), cells);
+      lower[axis][n] = share.lower;
+      fraction[axis][n] = share.fraction;
+    }
+  }
+  void set(int n, const CellShares& share) {
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis][n] = share[axis].lower;
+      fraction[axis][n] = share[axis].fraction;
+    }
+  }
+  CellShares operator[](int n) const {
+    return {{{lower[0][n], fraction[0][n]}, {lower[1][n], fraction[1][n]}, {lower[2][n], fraction[2][n]}}};
+  }
+};
+
 /// A point in the row of cells of its lower neighbours, the number of which says where it lies along y and z.
 template <int channels>
 struct SplatPoint {
@@ -37,8 +62,8 @@ struct SplatPoint {
 };
 
 /// Number of the row of the lower neighbours along y and z.
-inline std::int64_t rowOf(const AxisShare& y, const AxisShare& z, int rowsPerLayer) {
-  return y.lower + static_cast<std::int64_t>(rowsPerLayer) * z.lower;
+inline std::int32_t rowOf(const CellShares& share, int rowsPerLayer) {
+  return share[1].lower + rowsPerLayer * share[2].lower;
 }
 
 /// Adds points, sorted by rowOf, to the cells, layer after layer. The sums are made in the points' order.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/vector_path.h"
 #include "grid/separable_blur.h"
 
 namespace brisance {
@@ -62,21 +63,36 @@ void normalizeByGas(const Grid3<std::uint8_t>& solid, const SymmetricFilter& fil
   blurSeparably(task);
 }
 
-/// The deposit as points in cells. Where a solid stands among the eight cells around a particle, all of it belongs to
-/// the nearest of them that is not solid.
+/// The deposit as points in cells; runs of them at once. Where a solid stands among the eight cells around a particle,
+/// all of it belongs to the nearest of them that is not solid.
 class DepositPoints {
  public:
   DepositPoints(const Grid3<std::uint8_t>& solid, bool anySolids) : solid_(solid), anySolids_(anySolids) {}
 
-  const Vec3i& cells() const { return solid_.size; }
-  CellShares shares(const Vec3d& place) const {
-    CellShares share;
-    for (int axis = 0; axis < 3; ++axis)
-      share[axis] = axisShare((place[axis] - solid_.origin[axis]) / solid_.cellSize, solid_.size[axis]);
-    return anySolids_ ? outsideSolids(share) : share;
+  /// Rows of cells; -1 for what burns nothing.
+  void rowsOf(const Vec3d* places, const double* burnt, int count, std::int32_t* rows) const {
+    ShareRun share;
+    setShares(places, count, share);
+    runWide([&] {
+      for (int n = 0; n < count; ++n) rows[n] = burnt[n] > 0 ? rowOf(share[n], solid_.size.y) : -1;
+    });
+  }
+  void make(const Vec3d* places, const double* burnt, int count, SplatPoint<1>* points) const {
+    ShareRun share;
+    setShares(places, count, share);
+    for (int n = 0; n < count; ++n) points[n] = {share[n], {static_cast<float>(burnt[n])}};
   }
 
  private:
+  void setShares(const Vec3d* places, int count, ShareRun& share) const {
+    const double perCell = 1 / solid_.cellSize;
+    runWide([&] {
+      for (int axis = 0; axis < 3; ++axis)
+        share.set(axis, count, solid_.size[axis],
+                  [&](int n) { return (places[n][axis] - solid_.origin[axis]) * perCell; });
+    });
+    for (int n = 0; anySolids_ && n < count; ++n) share.set(n, outsideSolids(share[n]));
+  }
   CellShares outsideSolids(const CellShares& share) const {
     CellShares nearest = share;
     float largest = -1;
@@ -110,18 +126,19 @@ void renewNormalizer(const Grid3<std::uint8_t>& solid, const SymmetricFilter& fi
   scratch.kernelCells = kernelCells;
 }
 
-void sortBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const DepositPoints& points,
-               Binned<SplatPoint<1>>& sorted) {
-  const auto rowOfBurnt = [&](std::int64_t n) -> std::int64_t {
-    if (!(burnt[n] > 0)) return -1;
-    const CellShares share = points.shares(particles.position[n]);
-    return rowOf(share[1], share[2], points.cells().y);
-  };
-  const auto make = [&](std::int64_t n) -> SplatPoint<1> {
-    return {points.shares(particles.position[n]), {static_cast<float>(burnt[n])}};
-  };
-  const std::int64_t rows = static_cast<std::int64_t>(points.cells().y) * points.cells().z;
-  sortIntoBins(static_cast<std::int64_t>(burnt.size()), rows, rowOfBurnt, make, sorted);
+void sortBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const Grid3<std::uint8_t>& solid,
+               bool anySolids, Binned<SplatPoint<1>>& sorted) {
+  const DepositPoints points(solid, anySolids);
+  const Vec3d* places = particles.position.data();
+  sortIntoBins(
+      static_cast<std::int64_t>(burnt.size()), static_cast<std::int64_t>(solid.size.y) * solid.size.z,
+      [&](std::int64_t first, std::int64_t end, std::int32_t* rows) {
+        points.rowsOf(places + first, burnt.data() + first, static_cast<int>(end - first), rows);
+      },
+      [&](std::int64_t first, std::int64_t end, SplatPoint<1>* made) {
+        points.make(places + first, burnt.data() + first, static_cast<int>(end - first), made);
+      },
+      sorted);
 }
 
 }  // namespace
@@ -132,7 +149,7 @@ void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt
   BlurTask task{.size = solid.size, .channels = 1, .filter = depositFilter(kernelCells), .fill = {}, .finish = {}};
   const bool solids = hasSolids(solid);
   if (solids) renewNormalizer(solid, task.filter, kernelCells, scratch);
-  sortBurnt(particles, burnt, DepositPoints(solid, solids), scratch.points);
+  sortBurnt(particles, burnt, solid, solids, scratch.points);
   std::array<std::vector<float>, 3> gain;  // what solids do not keep the box's faces do not either
   for (int axis = 0; axis < 3; ++axis)
     gain[axis] = solids ? std::vector<float>(solid.size[axis], 1.f) : task.filter.gainInside(solid.size[axis]);
