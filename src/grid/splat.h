@@ -16,12 +16,6 @@ struct AxisShare {
   std::int32_t lower = 0;
   float fraction = 0;
 };
-/// `place` in cells, 0 being the first cell's centre; all belongs to the outermost cell beyond its centre.
-inline AxisShare axisShare(double place, int cells) {
-  const double inside = std::min(place > 0 ? place : 0.0, cells - 1.0);  // not a number: the first cell
-  const int lower = std::min(static_cast<int>(inside), std::max(0, cells - 2));
-  return {lower, static_cast<float>(inside - lower)};
-}
 using CellShares = std::array<AxisShare, 3>;
 
 /// The same for a run of points, one array per number, so that loops over them become loops over vectors.
@@ -29,13 +23,20 @@ struct ShareRun {
   std::int32_t lower[3][sortRun];
   float fraction[3][sortRun];
 
-  /// place(n) of n = 0 .. count - 1 along an axis.
+  /// place(n) of points n = 0 .. count - 1 in cells along an axis, 0 being the first cell's centre; all belongs to the
+  /// outermost cell beyond its centre.
   template <class Place>
   void set(int axis, int count, int cells, const Place& place) {
+    const double lastCentre = cells - 1.0;
+    const std::int32_t lastLower = std::max(0, cells - 2);
+    std::int32_t* lowers = lower[axis];
+    float* fractions = fraction[axis];
+#pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      const AxisShare share = axisShare(place(n), cells);
-      lower[axis][n] = share.lower;
-      fraction[axis][n] = share.fraction;
+      const double at = place(n), inside = std::min(at > 0 ? at : 0.0, lastCentre);  // not a number: the first cell
+      const std::int32_t below = static_cast<std::int32_t>(inside);
+      lowers[n] = below < lastLower ? below : lastLower;
+      fractions[n] = static_cast<float>(inside - lowers[n]);
     }
   }
   void set(int n, const CellShares& share) {

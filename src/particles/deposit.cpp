@@ -89,7 +89,9 @@ class DepositPoints {
     runWide([&] {
       for (int axis = 0; axis < 3; ++axis)
         share.set(axis, count, solid_.size[axis],
-                  [&](int n) { return (places[n][axis] - solid_.origin[axis]) * perCell; });
+                  [place = &places->x + axis, origin = solid_.origin[axis], perCell](int n) {
+                    return (place[3 * n] - origin) * perCell;
+                  });
     });
     for (int n = 0; anySolids_ && n < count; ++n) share.set(n, outsideSolids(share[n]));
   }
