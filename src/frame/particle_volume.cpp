@@ -140,16 +140,18 @@ void layOut(Grid3<T>& grid, const CellBox& cells, const ParticleVolumeSettings& 
 /// Named as a vector, for the compiler makes single loads and stores of a loop over threes and fours.
 typedef float Vector __attribute__((vector_size(16 * sizeof(float)), aligned(sizeof(float)), may_alias));
 
-/// Density and colour of some cells of a row, on their way from the blurred sums to memory.
+/// Density and colour of some cells of a row, on the way from the blurred sums to memory.
 struct FinishedCells {
-  static constexpr int most = 64;
+  static constexpr int most = 512, block = 16;
   float density[most], perMass[most], colour[3 * most + 4];
 
-  void make(const float* sums, float perVolume) {
-    for (int n = 0; n < most; ++n) density[n] = sums[channels * n];
-    for (int n = 0; n < most; ++n) perMass[n] = density[n] > 0 ? 1 / density[n] : 0;
-    for (int n = 0; n < most; ++n) density[n] *= perVolume;
-    for (int n = 0; n < most; n += 16) {
+  /// Of the first `count` cells of `sums`, and of more up to a whole block.
+  void make(const float* sums, int count, float perVolume) {
+    const int rounded = (count + block - 1) / block * block;
+    for (int n = 0; n < rounded; ++n) density[n] = sums[channels * n];
+    for (int n = 0; n < rounded; ++n) perMass[n] = density[n] > 0 ? 1 / density[n] : 0;
+    for (int n = 0; n < rounded; ++n) density[n] *= perVolume;
+    for (int n = 0; n < rounded; n += block) {
       const Vector inverse = *reinterpret_cast<const Vector*>(perMass + n);
       meanColours<0>(sums + channels * n, inverse, colour + 3 * n);
       meanColours<4>(sums + channels * n, inverse, colour + 3 * n);
@@ -180,7 +182,7 @@ void finishRow(const CellSpan& span, const float* sums, float perVolume, int cel
   FinishedCells some;
   for (int i = span.first; i < span.end; i += FinishedCells::most) {
     const int count = std::min(FinishedCells::most, span.end - i);
-    some.make(sums + channels * i, perVolume);
+    some.make(sums + channels * i, count, perVolume);
     streamCopy(density + i, some.density, count);
     streamCopy(colour + 3 * i, some.colour, 3 * count);
   }
