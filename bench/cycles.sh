@@ -52,11 +52,20 @@ cycles() {
   blender --background --factory-startup --python "$here/cycles.py" -- "$folder/bodies.glb" "$folder/gas.vdb" "$frame" \
     "$width" "$height" "$2" "$bounces" "$3" "$folder/$1" 2>&1 | tee "$folder/log" | grep '^CYCLES' | cut -d' ' -f2
 }
+# noise NAME SECONDS: compares NAME_0.exr and NAME_1.exr, prints it, and keeps it in the table.
 noise() {
-  blender --background --factory-startup --python "$here/compare_pictures.py" -- "$@" 2>&1 | grep '^NOISE' |
-    while read -r _ file rmse mean shown; do
-      echo "  $(basename "$file" .exr): noise $rmse, of what a display shows $shown, mean $mean"
-    done
+  blender --background --factory-startup --python "$here/compare_pictures.py" -- "$folder/$1_0.exr" "$folder/$1_1.exr" 2>&1 |
+    grep '^NOISE' | {
+    read -r _ _ rmse mean shown
+    echo "  $1: $2 s, noise $rmse, of what a display shows $shown, mean $mean"
+    echo "$1 $2 $rmse $shown" >>"$folder/table"
+  }
+}
+# sooner COLUMN: how many times sooner the quickest picture with no more noise than Cycles' is there.
+sooner() {
+  awk -v c="$1" '/^cycles/ { most = $c; theirs = $2 } { noise[$1] = $c; seconds[$1] = $2 }
+    END { for (name in noise) if (name ~ /^path/ && noise[name] <= most && (!best || seconds[name] < best)) best = seconds[name]
+          if (best) printf "%.1f times sooner (%s s)\n", theirs / best, best; else print "not reached" }' "$folder/table"
 }
 
 echo "Whitted's rays against Cycles at 4 samples, $size"
@@ -70,12 +79,13 @@ echo "All ways of light, $size"
 # Cycles' gas absorbs and shines; its glass is clear.
 path="--set render.integrator.type=path --set render.integrator.max_bounces=$bounces
   --set render.volume.smoke_colour=[0,0,0] --set materials.glass.absorption=[0,0,0] --set render.seed="
-for n in 4 6 8; do
-  first=$(draw "path_${n}_0" --samples $n ${path}1)
-  draw "path_${n}_1" --samples $n ${path}2 >/dev/null
-  echo "  Brisance, $n x $n samples: $first s"
-  noise "$folder/path_${n}_0.exr" "$folder/path_${n}_1.exr"
+rm -f "$folder/table"
+for n in 2 3 4; do
+  first=$(draw "path_${n}x${n}_0" --samples $n ${path}1)
+  draw "path_${n}x${n}_1" --samples $n ${path}2 >/dev/null
+  noise "path_${n}x${n}" "$first"
 done
 theirs=$(cycles "cycles_$samples" "$samples" 2 | head -1)
-echo "  Cycles, $samples samples: $theirs s"
-noise "$folder/cycles_${samples}_0.exr" "$folder/cycles_${samples}_1.exr"
+noise "cycles_$samples" "$theirs"
+echo "  the noise of Cycles: $(sooner 3)"
+echo "  of what a display shows: $(sooner 4)"

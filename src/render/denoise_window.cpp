@@ -1,13 +1,15 @@
 #include "render/denoise_window.h"
 
 #include "base/vector_path.h"
+#include <cstdlib>
 
 namespace brisance {
 namespace {
 
 constexpr int tilePixels = Plane::tileWidth * Plane::tileHeight;
 /// How far apart in deviations of the noise surroundings may be and still count.
-constexpr float tolerance = 0.6f;
+const float tolerance = getenv("XT") ? float(atof(getenv("XT"))) : 0.6f;
+const float XA = getenv("XA") ? float(atof(getenv("XA"))) : 1;
 /// Differences of this share of the brightness count as none.
 constexpr float indistinct = 0.01f;
 /// By how much of the brightness the light is expected to change over the window, and along each guide from 0 to 1.
@@ -123,7 +125,7 @@ void TileFilter::restrain(int x, int y, Fit& fit) const {
     const float relative = noise / (brightness * brightness + 1e-12f);
     fit.matrix[0][n] += 1e-6f;
     for (int i = 1; i < unknowns; ++i) {
-      const float slope = i < 3 ? placeSlope : guideSlope;
+      const float slope = i < 3 ? placeSlope : i < 6 ? XA : guideSlope;
       fit.matrix[i * (i + 3) / 2][n] += relative / (slope * slope) + leastRestraint;
     }
   }

@@ -97,7 +97,8 @@ void SightWalk::pass(const SurfaceHit& hit, const Vec3f& side, const Vec3f& dire
   ray_.origin = ray_.origin + ray_.direction * hit.distance + side;
   ray_.direction = direction;
   ray_.near = world_.geometry.resolution();
-  if (++mirrors_ >= world_.settings.rouletteFrom) certain_ = false;
+  ++mirrors_;
+  if (largest(throughput_) < world_.settings.faint) certain_ = false;
 }
 
 bool SightWalk::meetGlass(const SurfaceHit& hit) {

@@ -127,15 +127,6 @@ void GasMedium::packBrick(const ParticleVolume& volume, GasBrick& brick) const {
   brick.encode(samples);
 }
 
-GasSample GasMedium::sampleAt(const Vec3f& cells) const {
-  const auto block = [&](int axis) {
-    return std::clamp(static_cast<int>(cells[axis]) / blockCells, 0, blockLargest_.size[axis] - 1);
-  };
-  const Vec3i at{block(0), block(1), block(2)};
-  const std::int32_t brick = brickOf_[blockLargest_.index(at.x, at.y, at.z)];
-  return brick < 0 ? GasSample{} : memory_.bricks[brick].at(cells - Vec3f(at * blockCells));
-}
-
 void GasMedium::summariseBlock(const ParticleVolume& volume, int i, int j, int k) {
   const Grid3<float>& density = volume.density;
   const Vec3i lower{i * blockCells, j * blockCells, k * blockCells};

@@ -51,7 +51,6 @@ struct LightSource;
 struct GasSteps;
 struct GasWays;
 struct GasWaySteps;
-class FireSampler;
 class NumberRun;
 
 /// A volume and a coarse grid of blocks over it, by which rays skip the empty parts.
@@ -80,9 +79,6 @@ class GasMedium {
 
   // What the path integrator asks. It never calls illuminate(): gas then gives off its own light alone.
 
-  /// As march(), for a way drawn with `density` [1/sr] from its origin: light that `fire` could have drawn as well
-  /// counts by its share of both (balance heuristic).
-  GasPassage marchShared(const GasPath& path, float density, const FireSampler& fire) const;
   /// The share of light that passes, cell by cell.
   float transmittance(const GasPath& path) const;
   /// Where the way has passed `share` of the opacity 1 - `transmittance` of all of it [m].
@@ -90,14 +86,6 @@ class GasMedium {
   /// Where light going this way is absorbed or scattered first, drawn by delta tracking (Woodcock et al. 1965) with the
   /// largest density of each block; nothing when it passes. [m]
   std::optional<float> collision(const GasPath& path, NumberRun& numbers) const;
-  /// The light that a place [cells from sample (0, 0, 0)] gives off per metre. [radiance/m]
-  Vec3f emissionAtCell(const Vec3f& place) const;
-  float extinctionAtCell(const Vec3f& place) const { return optics_.extinction(sampleAt(place).density()); }  ///< [1/m]
-  /// That place in metres.
-  Vec3f placeOf(const Vec3f& place) const { return origin_ + place * cellSize_; }
-  /// Whether there are samples at all corners of the cell that begins at sample `lower`.
-  bool isBetweenSamples(const Vec3i& lower) const { return max(lower + Vec3i(2, 2, 2), size_) == size_; }
-  float cellSize() const { return cellSize_; }  ///< [m]
 
   /// What a block's gas gives off: the integral of extinction times glow over its cells, [radiance m2].
   const Grid3<Vec3f>& blockGlow() const { return blockGlow_; }
@@ -109,7 +97,6 @@ class GasMedium {
   void summariseBlock(const ParticleVolume& volume, int i, int j, int k);
   void pack(const ParticleVolume& volume);
   void packBrick(const ParticleVolume& volume, GasBrick& brick) const;
-  GasSample sampleAt(const Vec3f& cells) const;
   void boundOccupied();
   void bakeScattered();
   void bakeBrick(GasBrick& brick) const;

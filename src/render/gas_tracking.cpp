@@ -1,35 +1,11 @@
-// What the path integrator asks of the gas: shared marching, collisions, places that shine.
+// What the path integrator asks of the gas: what passes, and collisions.
 #include <cmath>
 
 #include "base/vector_path.h"
-#include "render/fire_sampler.h"
 #include "render/gas_steps.h"
 #include "render/sample_sequence.h"
 
 namespace brisance {
-
-GasPassage GasMedium::marchShared(const GasPath& path, float density, const FireSampler& fire) const {
-  const float perCell = 1 / cellSize_;
-  const Vec3f start = (path.origin - origin_) * perCell, slope = path.direction * perCell;
-  GasSample::Vector light{};
-  float transmittance = 1;
-  runWide([&] {
-    alongSteps(path, [&](const GasSteps& steps) {
-      for (int n = 0; n < steps.count; ++n) {
-        const float distance = steps.middle(n);
-        const std::int32_t block = memory_.bricks[steps.brick[n]].block;
-        const float drawn = fire.density(block, start + slope * distance) * distance * distance;
-        const float found = density * steps.depth[n], elsewise = drawn * steps.length(n);  // [1/sr] in this step
-        const float share = found > 0 ? found / (found + elsewise) : 0;
-        light += steps.sample[n].values * ((1 - steps.passing[n]) * steps.perDensity[n] * transmittance * share);
-        transmittance *= steps.passing[n];
-        if (transmittance < seeThrough) transmittance = 0;
-      }
-      return transmittance > 0;
-    });
-  });
-  return {{light[0], light[1], light[2]}, transmittance};
-}
 
 float GasMedium::transmittance(const GasPath& path) const {
   float depth = 0;
@@ -86,11 +62,6 @@ std::optional<float> GasMedium::collisionHere(GasPath path, NumberRun& numbers) 
     if (leaves >= path.far) return std::nullopt;
     at = out;
   }
-}
-
-Vec3f GasMedium::emissionAtCell(const Vec3f& place) const {
-  const GasSample sample = sampleAt(place);
-  return sample.density() > 0 ? sample.light() * optics_.extinction(sample.density()) : Vec3f{};
 }
 
 }  // namespace brisance

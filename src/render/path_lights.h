@@ -24,7 +24,6 @@ class ArrivingLights {
     for (const LightSource& source : world_.lights) light += fromSource(source, numbers);
     if (!world_.shining.isDark()) light += fromSurface(numbers);
     if (!world_.environment.isEven()) light += fromEnvironment(numbers);
-    if (world_.fire && !world_.fire->isDark()) light += fromFire(numbers);
     return light;
   }
 
@@ -71,21 +70,6 @@ class ArrivingLights {
     constexpr float far = std::numeric_limits<float>::max();
     return returned.value * drawn->radiance * passing(drawn->direction, far, GlassShade::blocks) /
            (drawn->density + returned.density);
-  }
-
-  /// The density per volume times the squared distance is that per solid angle and metre. A path that goes on comes
-  /// upon light of a metre as often as on its direction and on gas that stops it there: so no place, be it ever so
-  /// near, counts more than opaque fire all around.
-  Vec3f fromFire(SampleSequence& numbers) const {
-    const Vec2<float> choice = numbers.pair(), across = numbers.pair();
-    const FireSample drawn = world_.fire->sample(choice, across, numbers.number());
-    const Vec3f way = drawn.place - place_;
-    const float distance2 = dot(way, way), distance = std::sqrt(distance2);
-    if (!(distance > 0) || drawn.emission == Vec3f{}) return {};
-    const Returned returned = scatter_(way / distance);
-    if (returned.value == Vec3f{}) return {};
-    return returned.value * drawn.emission * passing(way / distance, distance, GlassShade::blocks) /
-           (drawn.density * distance2 + returned.density * drawn.extinction);
   }
 
   const PathWorld& world_;

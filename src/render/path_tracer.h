@@ -7,7 +7,7 @@
 #include "render/area_lights.h"
 #include "render/camera_rays.h"
 #include "render/environment.h"
-#include "render/fire_sampler.h"
+#include "render/fire_directions.h"
 #include "render/gas_medium.h"
 #include "render/lights.h"
 #include "render/sample_sequence.h"
@@ -22,9 +22,9 @@ struct PathWorld {
   const std::vector<LightSource>& lights;  ///< points and suns
   const AreaLights& shining;
   const Environment& environment;
-  const GasMedium* gas;     ///< or none
-  const FireSampler* fire;  ///< of the gas, or none
-  Vec3f smokeAlbedo;        ///< what gas scatters of the light that it stops
+  const GasMedium* gas;        ///< or none
+  const FireDirections* fire;  ///< of the gas, or none
+  Vec3f smokeAlbedo;           ///< what gas scatters of the light that it stops
   float anisotropy;
   PathIntegrator settings;
   int maxDepth;  ///< mirrors and smooth glass surfaces of a path

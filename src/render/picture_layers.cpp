@@ -8,6 +8,8 @@
 namespace brisance {
 namespace {
 
+/// Guides and what no chance decides cost little beside the light: they have more samples, and no noise is seen of them.
+constexpr int guideSamples = 64;
 constexpr float nowhere = 1e10f;  // [m] as Blender has it: infinity survives no filter of a compositor
 
 /// Bodies of one pixel in the order in which they were met.
@@ -88,7 +90,6 @@ class LayerPixels {
     for (int s = 0; s < task_.rays.perPixel(); ++s) {
       const CameraRay sample = task_.rays.ray(x, y, s);
       const Sight sight = firstSight(task_.world, sample.ray, sample.phase);
-      addGuides(p, sight, task_.rays.weight(s));
       addToHalf(p, sight, task_.rays.field(s), task_.rays.weight(s));
       addLayers(p, sample.ray, sight, task_.rays.weight(s));
       if (!sight.found) continue;
@@ -97,9 +98,16 @@ class LayerPixels {
     }
     layers_.bodies[p] = bodies.ranked();
     layers_.alpha[p] = std::min(layers_.alpha[p], 1.0f);  // weights add up to 1 but for rounding
+    if (task_.settings.denoise) drawGuides(x, y, p);
   }
 
  private:
+  void drawGuides(int x, int y, std::size_t p) const {
+    for (int s = 0; s < guideSamples; ++s) {
+      const CameraRay sample = task_.rays.freeRay(x, y, s);
+      addGuides(p, firstSight(task_.world, sample.ray, sample.phase), 1.0f / guideSamples);
+    }
+  }
   void addGuides(std::size_t p, const Sight& sight, float weight) const {
     guides_.certain.pixels[p] += sight.certain * weight;
     guides_.albedo.pixels[p] += sight.albedo * weight;

@@ -70,13 +70,13 @@ Exposed drawn(const Subject& subject, const WhittedIntegrator&) {
       Sampling::even);
 }
 
-/// Fire is no light of the list here: its gas itself is drawn from. Where noise is to be taken out, the samples are
+/// Fire is no light of the list here: ways are drawn towards it. Where noise is to be taken out, the samples are
 /// those of the guides.
 Exposed drawn(const Subject& subject, const PathIntegrator& integrator) {
   const RenderSettings& settings = subject.settings;
   const std::vector<LightSource> lights = lightSources(settings.lights, nullptr);
   const AreaLights shining(subject.frame.bodies, subject.materials, subject.openTime);
-  std::optional<FireSampler> fire;
+  std::optional<FireDirections> fire;
   if (subject.gas) fire.emplace(*subject.gas);
   const PathWorld world{subject.geometry,
                         subject.materials,

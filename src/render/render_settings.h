@@ -152,7 +152,7 @@ struct EnvironmentSettings {
 struct WhittedIntegrator {};
 struct PathIntegrator {
   int maxBounces = 12;   ///< off surfaces and smoke
-  int rouletteFrom = 4;  ///< bounces after which faint paths end at random
+  double faint = 0.01;   ///< share of a path's light that reaches the camera under which it may end by chance
   int splits = 2;        ///< glass surfaces and mirrors from the camera on at which both ways are followed
   bool adaptive = true;  ///< more samples for pixels whose light varies more
 };

@@ -119,8 +119,8 @@ struct IntegratorKeys {
   void operator()(KeyVisitor&, WhittedIntegrator&) const {}
   void operator()(KeyVisitor& v, PathIntegrator& path) const {
     visit(v, {"max_bounces", "", between(0, 1000), "of light off surfaces and smoke"}, path.maxBounces);
-    visit(v, {"roulette_from", "", between(1, 1000), "bounces after which faint paths end at random"},
-          path.rouletteFrom);
+    visit(v, {"faint", "", between(0, 1), "share of a path's light at the camera under which it may end by chance"},
+          path.faint);
     visit(
         v,
         {"splits", "", between(0, 8), "mirrors and glass surfaces from the camera on at which both ways are followed"},

@@ -1,5 +1,5 @@
-#include "grid/brick_source.h"
 #include "render/flow_arrows.h"
+#include "grid/brick_source.h"
 
 #include <gtest/gtest.h>
 

@@ -26,10 +26,10 @@ struct Room {
   Environment environment;
   std::vector<LightSource> lights{};
   const GasMedium* gas = nullptr;
-  const FireSampler* fire = nullptr;
+  const FireDirections* fire = nullptr;
   Vec3f albedo{};
   float anisotropy = 0;
-  PathIntegrator settings{200, 8, 2};
+  PathIntegrator settings{200, 0.05, 2};
 
   /// Along rays given by `rayOf(sequence)`, of the red channel.
   template <class RayOf>
@@ -230,7 +230,7 @@ TEST(PathReciprocity, LightAndCameraMayBeExchanged) {
 // Brute force: the same paths without drawing places in the fire.
 TEST(FireInADarkRoom, LightsTheWallsAsManyBlindPathsSay) {
   const GasMedium gas = fireBall();
-  const FireSampler fire(gas);
+  const FireDirections fire(gas);
   Room room(darkRoom("grey"), fewMaterials(), black);
   room.gas = &gas;
   room.albedo = {0.2f, 0.2f, 0.2f};
@@ -252,7 +252,7 @@ TEST(FireInADarkRoom, LightsTheWallsAsManyBlindPathsSay) {
 // The same over whole walls: the light that each of the six returns straight ahead, mean over its area.
 TEST(FireInADarkRoom, LightsEachWallWithinTwoPercentOfBruteForce) {
   const GasMedium gas = fireBall();
-  const FireSampler fire(gas);
+  const FireDirections fire(gas);
   Room room(darkRoom("grey"), fewMaterials(), black);
   room.gas = &gas;
   room.settings.maxBounces = 2;
@@ -276,12 +276,44 @@ TEST(FireInADarkRoom, LightsEachWallWithinTwoPercentOfBruteForce) {
     }
 }
 
+// A pane between the fire and a wall: only ways that go through it find light there, so those that are drawn towards
+// the fire have to go on through glass.
+TEST(FireInADarkRoom, LightsAWallThroughGlass) {
+  const GasMedium gas = fireBall();
+  const FireDirections fire(gas);
+  std::vector<FrameBody> bodies = darkRoom("grey");
+  bodies.push_back(bodyOf("pane", boxMesh({0.02, 2.9, 2.9}), "glass", {{1.2, 0, 0}, {}}));
+  Room room(bodies, fewMaterials(), black);
+  room.gas = &gas;
+  room.settings.maxBounces = 2;
+  const Vec3f wall(1.5f, 1.2f, 0.9f), eye = wall - Vec3f(0.1f, 0, 0);
+  const Estimate blind = room.along(eye, wall - eye, 60000);
+  room.fire = &fire;
+  const Estimate drawn = room.along(eye, wall - eye, 15000);
+  expectSame(drawn, blind);
+  EXPECT_LT(drawn.deviation * std::sqrt(15000), 0.5 * blind.deviation * std::sqrt(60000));
+}
+
+TEST(FaintPaths, EndWithoutBias) {
+  const GasMedium gas = fireBall();
+  const FireDirections fire(gas);
+  Room room(darkRoom("grey"), fewMaterials(), black);
+  room.gas = &gas;
+  room.fire = &fire;
+  room.settings.faint = 0;
+  const Estimate whole = room.along({0, 1.4f, 0.9f}, {0.1f, 1, 0}, 10000);
+  room.settings.faint = 0.5;
+  const Estimate ended = room.along({0, 1.4f, 0.9f}, {0.1f, 1, 0}, 40000);
+  expectSame(whole, ended);
+  EXPECT_GT(ended.deviation * std::sqrt(40000), 1.05 * whole.deviation * std::sqrt(10000));  // some did end
+}
+
 // A wall 1 cm from thick fire: no draw, be it as near as it may, counts more than fire all around. One draw from the
 // fire and one way on make at most twice that.
 TEST(FireInADarkRoom, NoPlaceOfItCountsMoreThanFireAllAround) {
   constexpr float glow = 4, grey = 0.6f;
   const GasMedium gas = gasCube(60, {glow, glow, glow});
-  const FireSampler fire(gas);
+  const FireDirections fire(gas);
   Room room({bodyOf("wall", boxMesh({0.1, 8, 8}), "grey", {{1.06, 0, 0}, {}})}, fewMaterials(), black);
   room.gas = &gas;
   room.fire = &fire;
