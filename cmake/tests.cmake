@@ -26,7 +26,7 @@ brisance_tests(fluid USES fluid sample_meshes textbook_flows LIBRARIES nlohmann_
 brisance_tests(assets USES fracture sample_meshes)
 brisance_tests(laws USES scene sample_meshes LIBRARIES nlohmann_json::nlohmann_json)
 brisance_tests(faults USES scene LIBRARIES nlohmann_json::nlohmann_json)
-brisance_tests(world USES scene LIBRARIES nlohmann_json::nlohmann_json)
+brisance_tests(world USES scene LIBRARIES nlohmann_json::nlohmann_json PkgConfig::OPENEXR)
 foreach(folder laws faults world)
   if(TARGET test_${folder})
     add_dependencies(test_${folder} brisance)

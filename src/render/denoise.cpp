@@ -9,11 +9,11 @@ namespace brisance {
 namespace {
 
 /// Added to the albedo by which light is divided: black surfaces may still mirror.
-constexpr float darkestAlbedo = 0.02f;
+constexpr float darkestAlbedo = 0.005f;
 /// Half the width of the squares over which variance and brightness are measured.
-constexpr int measuredRadius = 3;
+constexpr int measuredRadius = 3, measuredPixels = (2 * measuredRadius + 1) * (2 * measuredRadius + 1);
 /// A value beyond this many times the mean of its surroundings is a lucky path's: it counts as that much.
-constexpr float mostOfSurroundings = 12;
+constexpr float mostOfSurroundings = 4;
 
 /// Light that chance decides over albedo, of one half of the samples.
 ColourPlanes chancePart(const Image& light, const Image& certain, const Image& albedo) {
@@ -30,7 +30,7 @@ ColourPlanes chancePart(const Image& light, const Image& certain, const Image& a
 
 /// Limits what is far brighter than all around it.
 void limitOutliers(ColourPlanes& planes) {
-  constexpr float others = (2 * measuredRadius + 1) * (2 * measuredRadius + 1) - 1;
+  constexpr float others = measuredPixels - 1;
   for (Plane& plane : planes) {
     const Plane mean = boxMean(plane, measuredRadius);
     for (int y = 0; y < plane.height(); ++y)
@@ -60,15 +60,25 @@ ColourPlanes varianceOfHalf(const ColourPlanes& a, const ColourPlanes& b) {
   return variance;
 }
 
-Plane brightnessOf(const ColourPlanes& a, const ColourPlanes& b) {
-  Plane sum(a[0].width(), a[0].height());
+/// Mean over the colours and the surroundings.
+Plane brightnessOf(const ColourPlanes& light) {
+  Plane sum(light[0].width(), light[0].height());
   for (int y = 0; y < sum.height(); ++y)
     for (int x = 0; x < sum.width(); ++x)
-      for (int c = 0; c < 3; ++c) sum.row(y)[x] += (a[c].row(y)[x] + b[c].row(y)[x]) / 6;
+      for (int c = 0; c < 3; ++c) sum.row(y)[x] += light[c].row(y)[x] / 3;
   sum.fillRim();
   Plane mean = boxMean(sum, measuredRadius);
   mean.fillRim();
   return mean;
+}
+
+/// a + b, times a factor.
+Plane sumOf(const Plane& a, const Plane& b, float factor) {
+  Plane sum(a.width(), a.height());
+  for (int y = 0; y < sum.height(); ++y)
+    for (int x = 0; x < sum.width(); ++x) sum.row(y)[x] = factor * (a.row(y)[x] + b.row(y)[x]);
+  sum.fillRim();
+  return sum;
 }
 
 std::vector<Plane> guidePlanes(const PictureGuides& guides) {
@@ -92,6 +102,29 @@ Plane insideOf(int width, int height) {
   Plane inside(width, height);
   for (int y = 0; y < height; ++y) std::fill(inside.row(y), inside.row(y) + width, 1.0f);
   return inside;
+}
+
+/// All tiles, in four turns: tiles of one turn are so far apart that their windows do not meet, so that the sums are
+/// the same for any number of threads.
+ColourPlanes regressed(const FilterInput& input, int width, int height) {
+  static_assert(2 * TileFilter::radius <= std::min(Plane::tileWidth, Plane::tileHeight));
+  FilterSums sums(width, height);
+  const int columns = (width + Plane::tileWidth - 1) / Plane::tileWidth;
+  const int rows = (height + Plane::tileHeight - 1) / Plane::tileHeight;
+  for (int turn = 0; turn < 4; ++turn) {
+    const int firstColumn = turn % 2, firstRow = turn / 2;
+    const int across = (columns + 1 - firstColumn) / 2, down = (rows + 1 - firstRow) / 2;
+    parallelFor(0, static_cast<std::int64_t>(across) * down, 1, [&](std::int64_t first, std::int64_t last) {
+      TileFilter filter(input);
+      for (std::int64_t tile = first; tile < last; ++tile)
+        filter.run((firstColumn + 2 * static_cast<int>(tile % across)) * Plane::tileWidth,
+                   (firstRow + 2 * static_cast<int>(tile / across)) * Plane::tileHeight, sums);
+    });
+  }
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (Plane& plane : sums.light) plane.row(y)[x] /= std::max(sums.weight.row(y)[x], 1e-12f);
+  return std::move(sums.light);
 }
 
 Image recombined(const PictureGuides& guides, const ColourPlanes& filtered) {
@@ -132,18 +165,13 @@ Image denoised(const Exposed& picture, const PictureGuides& guides) {
     limitOutliers(input.light[half]);
   }
   input.variance = varianceOfHalf(input.light[0], input.light[1]);
-  input.brightness = brightnessOf(input.light[0], input.light[1]);
+  for (int half = 0; half < 2; ++half) input.brightnessOfHalf[half] = brightnessOf(input.light[half]);
+  input.brightness = sumOf(input.brightnessOfHalf[0], input.brightnessOfHalf[1], 0.5f);
+  const Plane ofOne = brightnessOf(input.variance);
+  input.brightnessVariance = sumOf(ofOne, ofOne, 0.5f / measuredPixels);
   input.guides = guidePlanes(guides);
   input.inside = insideOf(width, height);
-  ColourPlanes filtered{Plane(width, height), Plane(width, height), Plane(width, height)};
-  const int columns = (width + Plane::tileWidth - 1) / Plane::tileWidth;
-  const int rows = (height + Plane::tileHeight - 1) / Plane::tileHeight;
-  parallelFor(0, static_cast<std::int64_t>(columns) * rows, 1, [&](std::int64_t first, std::int64_t last) {
-    TileFilter filter(input);
-    for (std::int64_t tile = first; tile < last; ++tile)
-      filter.run(static_cast<int>(tile % columns) * Plane::tileWidth,
-                 static_cast<int>(tile / columns) * Plane::tileHeight, filtered);
-  });
+  const ColourPlanes filtered = regressed(input, width, height);
   return recombined(guides, filtered);
 }
 

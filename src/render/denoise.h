@@ -12,7 +12,8 @@ namespace brisance {
 /// pixel's new value is the value at that pixel of a function that is linear in the place and in the guides, fitted to
 /// the neighbours (after Bitterli et al. 2016, "Nonlinearly weighted first-order regression for denoising Monte Carlo
 /// renderings"), each weighed by how alike its surroundings are, noise apart (Rousselle, Knaus & Zwicker 2012). One
-/// half of the samples decides how the other is weighed, so that no sample is judged by its own noise.
+/// half of the samples decides how the other is weighed, so that no sample is judged by its own noise. Each fit tells
+/// the light of all its neighbours, and their means are the picture.
 Image denoised(const Exposed& picture, const PictureGuides& guides);
 
 }  // namespace brisance

@@ -1,21 +1,27 @@
 #include "render/denoise_window.h"
 
 #include "base/vector_path.h"
-#include <cstdlib>
 
 namespace brisance {
 namespace {
 
 constexpr int tilePixels = Plane::tileWidth * Plane::tileHeight;
 /// How far apart in deviations of the noise surroundings may be and still count.
-const float tolerance = getenv("XT") ? float(atof(getenv("XT"))) : 0.6f;
-const float XA = getenv("XA") ? float(atof(getenv("XA"))) : 1;
+constexpr float tolerance = 0.6f;
 /// Differences of this share of the brightness count as none.
 constexpr float indistinct = 0.01f;
+/// The same of means over surroundings.
+constexpr float meanTolerance = 2, meanIndistinct = 0.1f;
 /// By how much of the brightness the light is expected to change over the window, and along each guide from 0 to 1.
 constexpr float placeSlope = 0.3f, guideSlope = 1;
 /// Keeps the normal equations of a single neighbour solvable.
 constexpr float leastRestraint = 1e-4f;
+
+/// (1 - d / 4)^4 instead of e^-d.
+inline float fading(float difference) {
+  const float rest = std::clamp(1 - 0.25f * difference, 0.0f, 1.0f), squared = rest * rest;
+  return squared * squared;
+}
 
 }  // namespace
 
@@ -24,10 +30,10 @@ TileFilter::TileFilter(const FilterInput& input)
       weights_(static_cast<std::size_t>(neighbours) * tilePixels),
       compared_(comparedWidth * comparedHeight) {}
 
-void TileFilter::run(int left, int top, ColourPlanes& filtered) {
+void TileFilter::run(int left, int top, FilterSums& sums) {
   for (int half = 0; half < 2; ++half) {
     runWide([&] { weigh(1 - half, left, top); });
-    for (int row = 0; row < Plane::tileHeight; ++row) runWide([&] { regress(half, left, top + row, row, filtered); });
+    for (int row = 0; row < Plane::tileHeight; ++row) runWide([&] { regress(half, left, top + row, row, sums); });
   }
 }
 
@@ -35,7 +41,9 @@ void TileFilter::weigh(int half, int left, int top) {
   for (int dy = -radius; dy <= radius; ++dy)
     for (int dx = -radius; dx <= radius; ++dx) {
       compare(half, left, top, dx, dy);
-      weighByPatches((dy + radius) * windowWidth + dx + radius, left, top, dx, dy);
+      const int neighbour = (dy + radius) * windowWidth + dx + radius;
+      weighByPatches(neighbour, left, top, dx, dy);
+      weighByMeans(half, neighbour, left, top, dx, dy);
     }
 }
 
@@ -59,7 +67,7 @@ void TileFilter::compare(int half, int left, int top, int dx, int dy) {
   }
 }
 
-/// (1 - d / 4)^4 instead of e^-d of the mean difference d over a patch.
+/// By the mean difference over a patch.
 void TileFilter::weighByPatches(int neighbour, int left, int top, int dx, int dy) {
   constexpr float share = 1.0f / (3 * (2 * patchRadius + 1) * (2 * patchRadius + 1));
   for (int row = 0; row < Plane::tileHeight; ++row) {
@@ -67,25 +75,51 @@ void TileFilter::weighByPatches(int neighbour, int left, int top, int dx, int dy
     for (int r = row; r <= row + 2 * patchRadius; ++r)
       for (int n = 0; n < comparedWidth; ++n) columns[n] += compared_[r * comparedWidth + n];
     float* to = weights_.data() + neighbour * tilePixels + row * Plane::tileWidth;
-    const float* inside = input_.inside.row(top + row + dy) + left + dx;
+    const float *inside = input_.inside.row(top + row) + left,
+                *insideThere = input_.inside.row(top + row + dy) + left + dx;
     for (int n = 0; n < Plane::tileWidth; ++n) {
       float sum = 0;
       for (int d = 0; d <= 2 * patchRadius; ++d) sum += columns[n + d];
-      const float rest = std::clamp(1 - 0.25f * sum * share, 0.0f, 1.0f);
-      to[n] = rest * rest * rest * rest * inside[n];
+      to[n] = fading(sum * share) * inside[n] * insideThere[n];
     }
   }
 }
 
-void TileFilter::regress(int half, int left, int y, int rowInTile, ColourPlanes& filtered) {
+/// Means over the surroundings have little noise: they tell a shadow from the light beside it where single pixels do
+/// not.
+void TileFilter::weighByMeans(int half, int neighbour, int left, int top, int dx, int dy) {
+  for (int row = 0; row < Plane::tileHeight; ++row) {
+    const int y = top + row;
+    const Plane &means = input_.brightnessOfHalf[half], &noises = input_.brightnessVariance;
+    const float *mean = means.row(y) + left, *meanThere = means.row(y + dy) + left + dx;
+    const float *noise = noises.row(y) + left, *noiseThere = noises.row(y + dy) + left + dx;
+    float* to = weights_.data() + neighbour * tilePixels + row * Plane::tileWidth;
+    for (int n = 0; n < Plane::tileWidth; ++n) {
+      const float difference = mean[n] - meanThere[n], least = meanIndistinct * mean[n];
+      const float allowed = meanTolerance * meanTolerance * (noise[n] + noiseThere[n]) + least * least + 1e-12f;
+      to[n] *= fading(difference * difference / allowed);
+    }
+  }
+}
+
+void TileFilter::regress(int half, int left, int y, int rowInTile, FilterSums& sums) {
   for (int x = 0; x < Plane::tileWidth; x += lanes) {
-    gather(half, left + x, y, weights_.data() + rowInTile * Plane::tileWidth + x, fit_);
+    const float* weights = weights_.data() + rowInTile * Plane::tileWidth + x;
+    gather(half, left + x, y, weights, fit_);
     restrain(left + x, y, fit_);
     solve(fit_);
-    for (int c = 0; c < 3; ++c) {
-      float* to = filtered[c].row(y) + left + x;
-      for (int n = 0; n < lanes; ++n) to[n] += 0.5f * fit_.right[c][0][n];
-    }
+    spread(left + x, y, weights, fit_, sums);
+  }
+}
+
+/// What the unknowns are multiplied by at a neighbour.
+void TileFilter::factorsAt(int x, int y, int dx, int dy, Factors& factors) const {
+  std::fill_n(factors[0], lanes, 1.0f);
+  std::fill_n(factors[1], lanes, static_cast<float>(dx) / radius);
+  std::fill_n(factors[2], lanes, static_cast<float>(dy) / radius);
+  for (int g = 0; g < guideCount; ++g) {
+    const float *here = input_.guides[g].row(y) + x, *there = input_.guides[g].row(y + dy) + x + dx;
+    for (int n = 0; n < lanes; ++n) factors[3 + g][n] = there[n] - here[n];
   }
 }
 
@@ -93,16 +127,11 @@ void TileFilter::regress(int half, int left, int y, int rowInTile, ColourPlanes&
 void TileFilter::gather(int half, int x, int y, const float* weights, Fit& fit) const {
   std::fill_n(&fit.matrix[0][0], products * lanes, 0.0f);
   std::fill_n(&fit.right[0][0][0], 3 * unknowns * lanes, 0.0f);
-  float factors[unknowns][lanes], weighed[lanes];
+  Factors factors;
+  float weighed[lanes];
   for (int dy = -radius; dy <= radius; ++dy)
     for (int dx = -radius; dx <= radius; ++dx, weights += tilePixels) {
-      std::fill_n(factors[0], lanes, 1.0f);
-      std::fill_n(factors[1], lanes, static_cast<float>(dx) / radius);
-      std::fill_n(factors[2], lanes, static_cast<float>(dy) / radius);
-      for (int g = 0; g < guideCount; ++g) {
-        const float *here = input_.guides[g].row(y) + x, *there = input_.guides[g].row(y + dy) + x + dx;
-        for (int n = 0; n < lanes; ++n) factors[3 + g][n] = there[n] - here[n];
-      }
+      factorsAt(x, y, dx, dy, factors);
       const float* light[3];
       for (int c = 0; c < 3; ++c) light[c] = input_.light[half][c].row(y + dy) + x + dx;
       int product = 0;
@@ -116,6 +145,24 @@ void TileFilter::gather(int half, int x, int y, const float* weights, Fit& fit) 
     }
 }
 
+/// Each fit tells the light of all neighbours that count for it (collaborative regression, Bitterli et al. 2016).
+void TileFilter::spread(int x, int y, const float* weights, const Fit& fit, FilterSums& sums) const {
+  Factors factors;
+  for (int dy = -radius; dy <= radius; ++dy)
+    for (int dx = -radius; dx <= radius; ++dx, weights += tilePixels) {
+      factorsAt(x, y, dx, dy, factors);
+      for (int c = 0; c < 3; ++c) {
+        float value[lanes] = {};
+        for (int i = 0; i < unknowns; ++i)
+          for (int n = 0; n < lanes; ++n) value[n] += fit.right[c][i][n] * factors[i][n];
+        float* to = sums.light[c].row(y + dy) + x + dx;
+        for (int n = 0; n < lanes; ++n) to[n] += weights[n] * value[n];
+      }
+      float* to = sums.weight.row(y + dy) + x + dx;
+      for (int n = 0; n < lanes; ++n) to[n] += weights[n];
+    }
+}
+
 /// Slopes are held to what is likely, the more the noisier the light (ridge regression).
 void TileFilter::restrain(int x, int y, Fit& fit) const {
   for (int n = 0; n < lanes; ++n) {
@@ -125,13 +172,13 @@ void TileFilter::restrain(int x, int y, Fit& fit) const {
     const float relative = noise / (brightness * brightness + 1e-12f);
     fit.matrix[0][n] += 1e-6f;
     for (int i = 1; i < unknowns; ++i) {
-      const float slope = i < 3 ? placeSlope : i < 6 ? XA : guideSlope;
+      const float slope = i < 3 ? placeSlope : guideSlope;
       fit.matrix[i * (i + 3) / 2][n] += relative / (slope * slope) + leastRestraint;
     }
   }
 }
 
-/// Cholesky's decomposition of all lanes, and both substitutions; the values end in right[c][0].
+/// Cholesky's decomposition of all lanes, and both substitutions; the unknowns end in right[c].
 void TileFilter::solve(Fit& fit) {
   const auto at = [&fit](int i, int j) { return fit.matrix[i * (i + 1) / 2 + j]; };
   float* right[3][unknowns];

@@ -61,22 +61,31 @@ struct alignas(64) GasBrick {
     }
   }
 
-  /// Between the eight samples from number `first` on; shares 0 .. 1 along each axis. Two neighbours in x, near and far
-  /// in z, are one vector.
+  /// Between the eight samples from number `first` on; shares 0 .. 1 along each axis.
   [[gnu::always_inline]] GasSample between(int first, float x, float y, float z) const {
+    return {mixed(words + wordsOfSample * first, x, y, z).values * GasCode::unit};
+  }
+  /// The same at a place in cells from the brick's first sample, cut to the brick.
+  GasSample at(const Vec3f& cellsIn) const;
+
+  /// Samples counted through all bricks of an array: those from the array's first word to brick n's first sample.
+  static constexpr std::uint32_t samplesBefore(std::uint32_t n);
+  static const std::uint32_t* wordsOf(const GasBrick* bricks, std::uint32_t sample) {
+    return reinterpret_cast<const std::uint32_t*>(bricks) + std::size_t{wordsOfSample} * sample;
+  }
+  /// As between(), over GasCode::unit. Two neighbours in x, near and far in z, are one vector.
+  [[gnu::always_inline]] static GasSample mixed(const std::uint32_t* words, float x, float y, float z) {
     Four low, up;
-    read(first, low);
-    read(first + edge, up);
+    read(words, low);
+    read(words + wordsOfSample * edge, up);
     low += (up - low) * y;
     Pair near = __builtin_shufflevector(low, low, 0, 1, 2, 3, 4, 5, 6, 7);
     const Pair far = __builtin_shufflevector(low, low, 8, 9, 10, 11, 12, 13, 14, 15);
     near += (far - near) * z;
     const GasSample::Vector left = __builtin_shufflevector(near, near, 0, 1, 2, 3),
                             right = __builtin_shufflevector(near, near, 4, 5, 6, 7);
-    return {(left + (right - left) * x) * GasCode::unit};
+    return {left + (right - left) * x};
   }
-  /// The same at a place in cells from the brick's first sample, cut to the brick.
-  GasSample at(const Vec3f& cellsIn) const;
 
  private:
   using Pair [[gnu::vector_size(32)]] = float;
@@ -86,15 +95,21 @@ struct alignas(64) GasBrick {
   using MoreCodes [[gnu::vector_size(32)]] = std::uint16_t;
 
   /// By reference, since without wide vectors no function may return one.
-  [[gnu::always_inline]] void read(int first, Four& four) const {
+  [[gnu::always_inline]] static void read(const std::uint32_t* words, Four& four) {
     Codes near, far;
-    std::memcpy(&near, words + wordsOfSample * first, sizeof near);
-    std::memcpy(&far, words + wordsOfSample * (first + edge * edge), sizeof far);
+    std::memcpy(&near, words, sizeof near);
+    std::memcpy(&far, words + wordsOfSample * edge * edge, sizeof far);
     const MoreCodes both = __builtin_shufflevector(near, far, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     const Bits bits = __builtin_convertvector(both, Bits) << GasCode::shift;
     four = reinterpret_cast<Four>(bits);
   }
 };
+
+constexpr std::uint32_t GasBrick::samplesBefore(std::uint32_t n) {
+  constexpr std::uint32_t each = sizeof(GasBrick) / (wordsOfSample * sizeof(std::uint32_t));
+  static_assert(each * wordsOfSample * sizeof(std::uint32_t) == sizeof(GasBrick));
+  return n * each;
+}
 
 /// Room for bricks, used again from frame to frame and in huge pages: fresh small ones cost more time than the samples
 /// in them.

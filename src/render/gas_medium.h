@@ -57,6 +57,7 @@ class NumberRun;
 class GasMedium {
  public:
   static constexpr int blockCells = GasBrick::cells;  ///< along each edge of a block
+  static constexpr int blockBits = 3;                 ///< log2 of that
   static constexpr int packet = 16;                   ///< ways that are marched side by side
 
   /// Copies the volume, into `memory` where that is large enough.
@@ -108,11 +109,13 @@ class GasMedium {
   GasPassage marchHere(const GasPath& path) const;
   std::optional<float> collisionHere(GasPath path, NumberRun& numbers) const;
   float roughTransmittanceHere(GasPath path) const;
+  template <class Read>
+  void marchPackets(std::span<const GasPath> paths, std::span<GasPassage> passages) const;
+  template <class Read>
   void marchPacket(std::span<const GasPath> paths, std::span<GasPassage> passages) const;
   void enter(std::span<const GasPath> paths, GasWays& ways) const;
   void look(const GasWays& ways, GasWaySteps& steps) const;
   void pass(const GasWaySteps& steps, GasWays& ways) const;
-  void read(GasWaySteps& steps) const;
   void shine(const GasWaySteps& steps, GasWays& ways) const;
   bool clip(GasPath& path) const;
 

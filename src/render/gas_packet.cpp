@@ -1,50 +1,42 @@
 // Sixteen ways through the gas side by side, one in each lane of vectors.
 #include "base/vector_path.h"
+#include "render/gas_samples.h"
 #include "render/gas_steps.h"
 
 namespace brisance {
 
 namespace {
-
 constexpr int lanes = GasMedium::packet;
-
-template <class T>
-struct alignas(64) PacketLanes {
-  T value[lanes];
-  T& operator[](int n) { return value[n]; }
-  const T& operator[](int n) const { return value[n]; }
-};
-using Floats = PacketLanes<float>;
-using Whole = PacketLanes<std::int32_t>;
-
+static_assert(lanes == packetLanes);
 }  // namespace
 
 /// The ways, and what has come of them so far.
 struct GasWays {
-  Floats start[3], slope[3], perSlope[3];  ///< [cells], [cells/m], [m/cell]
-  Floats near, far;                        ///< [m] where the way is in the gas
-  Floats phase, number, end;               ///< of the next step, and of the one after the way's last
-  Floats transmittance;
+  FloatLanes start[3], slope[3], perSlope[3];  ///< [cells], [cells/m], [m/cell]
+  FloatLanes near, far;                        ///< [m] where the way is in the gas
+  FloatLanes begin, behind;                    ///< [m] where step 0 begins and ends
+  FloatLanes number, end;                      ///< of the next step, and of the one after the way's last
+  FloatLanes transmittance;
   alignas(64) GasSample light[lanes];
 
   bool goOn() const {
     std::int32_t any = 0;
-    for (int n = 0; n < lanes; ++n) any |= number[n] < end[n];
+    for (int n = 0; n < lanes; ++n) any |= (number[n] < end[n]) & (transmittance[n] > 0);
     return any != 0;
   }
 };
 
-/// One step of each way.
+/// One step of each way. Ways that have ended go on in steps of length 0, which change nothing.
 struct GasWaySteps {
-  Floats length;                        ///< [m]
-  Floats place[3];                      ///< [cells] of its middle
-  Whole block[3];                       ///< in which that lies
-  Whole brick;                          ///< -1 where there is none, or the way has ended
-  alignas(64) GasSample sample[lanes];  ///< of the gas there
+  FloatLanes length;    ///< [m]
+  WholeLanes block[3];  ///< in which its middle lies
+  WholeLanes brick;     ///< -1 where there is none
+  PacketSamples gas;    ///< there
 };
 
 /// As steps are numbered in alongSteps(). Lanes without a way have ended.
 inline void GasMedium::enter(std::span<const GasPath> paths, GasWays& ways) const {
+  constexpr float level = 1e-20f;  // a slope that is none, but has an inverse
   const float perCell = 1 / cellSize_, perStep = 1 / step_;
   for (int n = 0; n < lanes; ++n) {
     const GasPath& path = paths[std::min<std::size_t>(n, paths.size() - 1)];
@@ -54,36 +46,41 @@ inline void GasMedium::enter(std::span<const GasPath> paths, GasWays& ways) cons
     }
     ways.near[n] = path.near;
     ways.far[n] = path.far;
-    ways.phase[n] = path.phase;
+    ways.begin[n] = (path.phase - 1) * step_;
+    ways.behind[n] = path.phase * step_;
   }
   for (int axis = 0; axis < 3; ++axis) {
     const float lower = (lower_[axis] - origin_[axis]) * perCell, upper = (upper_[axis] - origin_[axis]) * perCell;
     for (int n = 0; n < lanes; ++n) {
-      const float slope = ways.slope[axis][n], perSlope = 1 / slope;
+      const float slope = std::abs(ways.slope[axis][n]) < level ? level : ways.slope[axis][n];
+      ways.slope[axis][n] = slope;
+      const float perSlope = 1 / slope;
       ways.perSlope[axis][n] = perSlope;
       const float a = (lower - ways.start[axis][n]) * perSlope, b = (upper - ways.start[axis][n]) * perSlope;
-      const float enter = a < b ? a : b, leave = a < b ? b : a;
-      ways.near[n] = enter > ways.near[n] ? enter : ways.near[n];
-      ways.far[n] = leave < ways.far[n] ? leave : ways.far[n];
+      ways.near[n] = std::max(std::min(a, b), ways.near[n]);
+      ways.far[n] = std::min(std::max(a, b), ways.far[n]);
     }
   }
   for (int n = 0; n < lanes; ++n) {
     const bool crosses = (ways.near[n] < ways.far[n]) & (n < static_cast<int>(paths.size()));
-    const float first = std::floor(ways.near[n] * perStep - ways.phase[n]) + 1,
-                end = std::ceil(ways.far[n] * perStep - ways.phase[n]) + 1;
+    const float first = std::floor((ways.near[n] - ways.behind[n]) * perStep) + 1,
+                end = std::ceil((ways.far[n] - ways.behind[n]) * perStep) + 1;
     ways.number[n] = crosses ? first : 0;
     ways.end[n] = crosses ? end : 0;
+    ways.far[n] = crosses ? ways.far[n] : 0;
+    ways.near[n] = crosses ? ways.near[n] : 0;
     ways.transmittance[n] = 1;
     ways.light[n] = {};
   }
 }
 
 inline void GasMedium::look(const GasWays& ways, GasWaySteps& steps) const {
-  Floats middle;
+  FloatLanes middle;
+  WholeLanes cell[3], block;
   for (int n = 0; n < lanes; ++n) {
-    const float from = std::max((ways.number[n] - 1 + ways.phase[n]) * step_, ways.near[n]),
-                to = std::min((ways.number[n] + ways.phase[n]) * step_, ways.far[n]);
-    steps.length[n] = to - from;
+    const float from = std::max(ways.number[n] * step_ + ways.begin[n], ways.near[n]),
+                to = std::min(ways.number[n] * step_ + ways.behind[n], ways.far[n]);
+    steps.length[n] = std::max(to - from, 0.0f);
     middle[n] = 0.5f * (from + to);
   }
   const Vec3i blocks = blockLargest_.size;
@@ -91,15 +88,19 @@ inline void GasMedium::look(const GasWays& ways, GasWaySteps& steps) const {
     const float upper = static_cast<float>(blocks[axis] * blockCells) - 1e-3f;
     for (int n = 0; n < lanes; ++n) {
       const float place = ways.start[axis][n] + ways.slope[axis][n] * middle[n];
-      steps.place[axis][n] = std::min(std::max(place, 0.0f), upper);
-      steps.block[axis][n] = static_cast<std::int32_t>(steps.place[axis][n]) / blockCells;
+      const float inside = std::min(std::max(place, 0.0f), upper);
+      const auto whole = static_cast<std::int32_t>(inside);
+      steps.block[axis][n] = whole >> blockBits;
+      cell[axis][n] = whole & (blockCells - 1);
+      steps.gas.share[axis][n] = inside - static_cast<float>(whole);
     }
   }
-  for (int n = 0; n < lanes; ++n) {
-    const std::int32_t brick =
-        brickOf_[steps.block[0][n] + blocks.x * (steps.block[1][n] + blocks.y * steps.block[2][n])];
-    steps.brick[n] = ways.number[n] < ways.end[n] ? brick : -1;
-  }
+  for (int n = 0; n < lanes; ++n)
+    block[n] = steps.block[0][n] + blocks.x * (steps.block[1][n] + blocks.y * steps.block[2][n]);
+  for (int n = 0; n < lanes; ++n) steps.brick[n] = brickOf_[block[n]];
+  for (int n = 0; n < lanes; ++n)
+    steps.gas.first[n] =
+        GasBrick::samplesBefore(std::max(steps.brick[n], 0)) + GasBrick::index(cell[0][n], cell[1][n], cell[2][n]);
 }
 
 /// To the next step: in gas the next one, else the first whose middle lies beyond the block.
@@ -114,35 +115,16 @@ inline void GasMedium::pass(const GasWaySteps& steps, GasWays& ways) const {
   for (int n = 0; n < lanes; ++n) {
     float leaves = ways.far[n];
     for (int axis = 0; axis < 3; ++axis) {
-      const float slope = ways.slope[axis][n];
-      const auto face = static_cast<float>((steps.block[axis][n] + (slope > 0 ? 1 : 0)) * blockCells);
-      const float distance = (face - ways.start[axis][n]) * ways.perSlope[axis][n];
-      leaves = (slope != 0) & (distance < leaves) ? distance : leaves;
+      const auto face = static_cast<float>((steps.block[axis][n] + (ways.slope[axis][n] > 0 ? 1 : 0)) * blockCells);
+      leaves = std::min(leaves, (face - ways.start[axis][n]) * ways.perSlope[axis][n]);
     }
-    const float next = ways.number[n] + 1, beyond = std::ceil(leaves * perStep + 0.5f - ways.phase[n]);
-    ways.number[n] = steps.brick[n] < 0 && beyond > next ? beyond : next;
+    const float next = ways.number[n] + 1, beyond = std::ceil((leaves - ways.behind[n]) * perStep + 0.5f);
+    ways.number[n] = steps.brick[n] < 0 ? std::max(next, beyond) : next;
   }
 }
 
-inline void GasMedium::read(GasWaySteps& steps) const {
-  constexpr float inside = GasBrick::cells - 1e-5f;
-  Floats share[3];
-  Whole cell[3], first;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int n = 0; n < lanes; ++n) {
-      const float local =
-          std::min(steps.place[axis][n] - static_cast<float>(steps.block[axis][n] * blockCells), inside);
-      cell[axis][n] = static_cast<std::int32_t>(local);
-      share[axis][n] = local - static_cast<float>(cell[axis][n]);
-    }
-  for (int n = 0; n < lanes; ++n) first[n] = GasBrick::index(cell[0][n], cell[1][n], cell[2][n]);
-  for (int n = 0; n < lanes; ++n)
-    steps.sample[n] =
-        memory_.bricks[std::max(steps.brick[n], 0)].between(first[n], share[0][n], share[1][n], share[2][n]);
-}
-
 /// Adds to the light of each lane what its sample gives times a weight, four lanes at a time.
-inline void addWeighed(const GasSample* samples, const Floats& weight, GasSample* light) {
+inline void addWeighed(const GasSample* samples, const FloatLanes& weight, GasSample* light) {
   using Four [[gnu::vector_size(64)]] = float;
   for (int n = 0; n < lanes; n += 4) {
     const float a = weight[n], b = weight[n + 1], c = weight[n + 2], d = weight[n + 3];
@@ -153,20 +135,20 @@ inline void addWeighed(const GasSample* samples, const Floats& weight, GasSample
 
 /// Equations A.3 and A.4.
 inline void GasMedium::shine(const GasWaySteps& steps, GasWays& ways) const {
-  Floats density, weight;
-  for (int n = 0; n < lanes; ++n) density[n] = steps.sample[n].density();
+  constexpr float least = 1e-30f;  // divides nothing by something
+  FloatLanes weight;
   for (int n = 0; n < lanes; ++n) {
-    const float here = steps.brick[n] < 0 ? 0 : density[n];
-    const float passing = fastExp(-optics_.extinction(here) * steps.length[n]);
-    weight[n] = here > 0 ? (1 - passing) / here * ways.transmittance[n] : 0;
+    const float density = steps.brick[n] < 0 ? 0 : steps.gas.density[n] * GasCode::unit;
+    const float passing = fastExp(-optics_.extinction(density) * steps.length[n]);
+    weight[n] = (1 - passing) / std::max(density, least) * ways.transmittance[n] * GasCode::unit;
     const float left = ways.transmittance[n] * passing;
     ways.transmittance[n] = left < seeThrough ? 0 : left;
-    ways.end[n] = left < seeThrough ? 0 : ways.end[n];
   }
-  addWeighed(steps.sample, weight, ways.light);
+  addWeighed(steps.gas.sample, weight, ways.light);
 }
 
-inline void GasMedium::marchPacket(std::span<const GasPath> paths, std::span<GasPassage> passages) const {
+template <class Read>
+void GasMedium::marchPacket(std::span<const GasPath> paths, std::span<GasPassage> passages) const {
   GasWays ways;
   GasWaySteps steps;
   enter(paths, ways);
@@ -175,7 +157,7 @@ inline void GasMedium::marchPacket(std::span<const GasPath> paths, std::span<Gas
     std::int32_t any = -1;
     for (int n = 0; n < lanes; ++n) any = std::max(any, steps.brick[n]);
     if (any >= 0) {
-      read(steps);
+      Read::read(memory_.bricks.get(), steps.gas);
       shine(steps, ways);
     }
     pass(steps, ways);
@@ -184,13 +166,19 @@ inline void GasMedium::marchPacket(std::span<const GasPath> paths, std::span<Gas
     passages[n] = {{ways.light[n].values[0], ways.light[n].values[1], ways.light[n].values[2]}, ways.transmittance[n]};
 }
 
+template <class Read>
+void GasMedium::marchPackets(std::span<const GasPath> paths, std::span<GasPassage> passages) const {
+  for (std::size_t n = 0; n < paths.size(); n += packet) {
+    const std::size_t count = std::min<std::size_t>(packet, paths.size() - n);
+    marchPacket<Read>(paths.subspan(n, count), passages.subspan(n, count));
+  }
+}
+
 void GasMedium::march(std::span<const GasPath> paths, std::span<GasPassage> passages) const {
-  runWide([&] {
-    for (std::size_t n = 0; n < paths.size(); n += packet) {
-      const std::size_t count = std::min<std::size_t>(packet, paths.size() - n);
-      marchPacket(paths.subspan(n, count), passages.subspan(n, count));
-    }
-  });
+  if (vectorPath() == VectorPath::avx512)
+    detail::runAvx512([&] { marchPackets<ReadFours>(paths, passages); });
+  else
+    runWide([&] { marchPackets<ReadEach>(paths, passages); });
 }
 
 }  // namespace brisance

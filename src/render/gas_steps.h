@@ -13,14 +13,16 @@ namespace brisance {
 /// A way that passes less than this counts as passing nothing (appendix A.2 ends at an opacity of 0.999).
 constexpr float seeThrough = 1 - 0.999f;
 
-/// e^x for x <= 0 to 3e-7, by the bits of a float: 2^k times a polynomial of the rest.
+/// e^x for x <= 0 to 3e-7, by the bits of a float: 2^k times a polynomial of the rest, ln(2)^n / n! its coefficients.
 inline float fastExp(float x) {
   constexpr float log2e = 1.44269504f;
   const float t = std::max(x * log2e, -126.0f);
   const auto k = static_cast<std::int32_t>(t - 0.5f);  // the nearest whole number, t being negative
-  const float r = (t - static_cast<float>(k)) * 0.693147181f;
+  const float r = t - static_cast<float>(k);
   const float fraction =
-      1 + r * (1 + r * (0.5f + r * (1.0f / 6 + r * (1.0f / 24 + r * (1.0f / 120 + r * (1.0f / 720))))));
+      1 +
+      r * (0.693147181f + r * (0.240226507f + r * (0.0555041087f +
+                                                   r * (0.00961812911f + r * (0.00133335581f + r * 0.000154035304f)))));
   return fraction * std::bit_cast<float>((k + 127) << 23);
 }
 

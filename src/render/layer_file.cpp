@@ -22,9 +22,9 @@ struct FileContent {
   void add(const std::string& name, const std::vector<float>& values, bool whole = false) {
     channels.push_back({name, values.data(), 1, whole});
   }
-  void addPlane(const std::string& name, std::vector<float> values) {
+  void addPlane(const std::string& name, std::vector<float> values, bool whole = true) {
     planes.push_back(std::move(values));
-    channels.push_back({name, planes.back().data(), 1, true});
+    channels.push_back({name, planes.back().data(), 1, whole});
   }
 };
 
@@ -57,6 +57,7 @@ FileContent contentOf(const DrawnPicture& picture) {
   content.add("depth.Z", layers.depth, true);
   content.channels.push_back({"motion.X", &layers.motion.front().x, 2});
   content.channels.push_back({"motion.Y", &layers.motion.front().y, 2});
+  content.addPlane("motion.Z", std::vector<float>(layers.motion.size()), false);  // Blender reads no layers of two
   content.add("N.", "XYZ", layers.normal);
   content.add("variance.", "RGB", picture.variance, true);
   content.add("volume.", "RGB", layers.volume);

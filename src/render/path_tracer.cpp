@@ -35,13 +35,15 @@ PathTracer::Fate PathTracer::crossGas(Walk& walk, float far, Vec3f& sum) {
   const GasPassage passage = world_.gas->march(path);
   sum += walk.throughput * passage.light * walk.fireShare;
   if (passage.transmittance == 1) return Fate::surface;
-  if (walk.towardsFire || world_.smokeAlbedo == Vec3f{}) {
+  if (world_.smokeAlbedo == Vec3f{}) {
     walk.throughput *= passage.transmittance;
     return passage.transmittance > 0 ? Fate::surface : Fate::ended;
   }
   NumberRun run(numbers_.bits());
   const std::optional<float> collision = world_.gas->collision(path, run);
   if (!collision) return Fate::surface;
+  walk.throughput *= walk.fireShare;
+  walk.towardsFire = false;
   return scatterInSmoke(walk, walk.at(*collision), sum) && survives(walk) ? Fate::scattered : Fate::ended;
 }
 
@@ -59,23 +61,30 @@ PathTracer::Fate PathTracer::crossGasSeen(Walk& walk, const GasPath& path, Vec3f
   return passage.transmittance > 0 ? Fate::surface : Fate::ended;
 }
 
+/// Where the camera sees it, a way towards the fire is drawn beside the way on, else the way on is drawn by either: so
+/// ways in smoke do not become more and more.
 bool PathTracer::scatterInSmoke(Walk& walk, const Vec3f& place, Vec3f& sum) {
   if (walk.bounces >= world_.settings.maxBounces) return false;
   const Vec3f onward = walk.ray.direction;
+  const std::optional<FireCones> fire = fireFrom(place, {});
+  const bool both = walk.direct, either = fire && !both;
   const auto returned = [&](const Vec3f& direction) {
     const float phase = phaseFunction(world_.anisotropy, dot(onward, direction));
-    return Returned{{phase, phase, phase}, phase};
+    return Returned{{phase, phase, phase}, either ? 0.5f * (phase + fire->density(direction)) : phase};
   };
   walk.throughput = walk.throughput * world_.smokeAlbedo;
   sum += walk.throughput * ArrivingLights(world_, place, walk.ray.time, phase_, returned).sum(numbers_);
-  const std::optional<FireCones> fire = fireFrom(place, {});
-  if (fire)
+  if (fire && both)
     sum += firelight(
         walk, *fire, [&](const Vec3f&) { return place; }, returned);
+  const float choice = numbers_.number();
   const Vec2<float> where = numbers_.pair();
-  const Vec3f next = samplePhase(world_.anisotropy, onward, where.x, where.y);
-  walk.density = phaseFunction(world_.anisotropy, dot(onward, next));
-  walk.fireShare = fire ? share(walk.density, fire->density(next)) : 1;
+  const Vec3f next = either && choice < 0.5f ? fire->sample(2 * choice, where)
+                                             : samplePhase(world_.anisotropy, onward, where.x, where.y);
+  const Returned back = returned(next);
+  walk.throughput = walk.throughput * back.value / back.density;
+  walk.density = back.density;
+  walk.fireShare = fire && both ? share(walk.density, fire->density(next)) : 1;
   walk.onward(place, next, 0);
   walk.direct = false;
   ++walk.bounces;

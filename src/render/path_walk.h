@@ -16,8 +16,8 @@ struct Walk {
   Vec3f throughput{1, 1, 1};
   float density = 0;   ///< [1/sr] with which its direction was drawn; 0 for a single one: camera, mirror, smooth glass
   bool direct = true;  ///< nothing but mirrors and smooth glass since the camera
-  bool towardsFire = false;  ///< drawn to find fire alone: ends where light is scattered
-  float fireShare = 1;       ///< of the fire it finds that counts, where a way towards fire finds it as well
+  bool towardsFire = false;  ///< drawn to find the gas alone: ends on surfaces that scatter
+  float fireShare = 1;       ///< of the gas' light that counts, where a way drawn towards fire finds it as well
   int bounces = 0;           ///< off surfaces and smoke
   int mirrors = 0;           ///< and smooth glass
   int splits = 0;            ///< mirrors and glass surfaces at which both ways may still be followed
@@ -69,9 +69,9 @@ class PathTracer {
   SampleSequence numbers_;
 };
 
-/// Light of the fire along one way drawn towards it. What it gathers on its whole way, through glass and in mirrors
-/// too, counts by its share of the two ways that may go there: this one and the one on which the path goes on (after
-/// Simon et al. 2017). `from(direction)`: where it begins.
+/// Light of the gas along one way drawn towards the fire. What gas sends and scatters on that whole way, through glass
+/// and in mirrors too, counts by its share of the two ways that may go there: this one and the one on which the path
+/// goes on (after Simon et al. 2017). `from(direction)`: where it begins.
 template <class From, class Scatter>
 Vec3f PathTracer::firelight(Walk walk, const FireCones& fire, const From& from, const Scatter& scatter) {
   const float choice = numbers_.number();

@@ -1,10 +1,5 @@
 #include "render/layer_file.h"
 
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfStringAttribute.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -12,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
+#include "read_layers.h"
 #include "render/cryptomatte.h"
 #include "render/exposure.h"
 #include "scratch_directory.h"
@@ -23,31 +19,11 @@ namespace {
 
 constexpr int size = 32;
 
-/// A file as the library itself reads it.
-struct ReadFile {
-  std::map<std::string, std::vector<float>> channels;
-  std::map<std::string, std::string> texts;
-  float at(const std::string& channel, int x, int y) const { return channels.at(channel)[y * size + x]; }
-};
-
-ReadFile readBack(const std::string& bytes) {
+ReadLayers readBack(const std::string& bytes) {
   const ScratchDirectory place;
   const std::string name = (place / "layers.exr").string();
   std::ofstream(name, std::ios::binary) << bytes;
-  Imf::InputFile file(name.c_str());
-  ReadFile read;
-  Imf::FrameBuffer buffer;
-  for (auto c = file.header().channels().begin(); c != file.header().channels().end(); ++c) {
-    auto& values = read.channels[c.name()];
-    values.resize(size * size);
-    buffer.insert(c.name(), Imf::Slice::Make(Imf::FLOAT, values.data(), file.header().dataWindow()));
-  }
-  for (auto a = file.header().begin(); a != file.header().end(); ++a)
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
-      read.texts[a.name()] = text->value();
-  file.setFrameBuffer(buffer);
-  file.readPixels(0, size - 1);
-  return read;
+  return readLayers(name);
 }
 
 /// A red wall 5 m before the camera, a moving card of glass before its left half, sky to the right.
@@ -67,8 +43,8 @@ DrawnPicture drawnScene(int threads = 0) {
   return drawPicture(frame, settings, RenderAssets(settings), time, scratch);
 }
 
-const ReadFile& sceneFile() {
-  static const ReadFile file = readBack(encodeLayers(drawnScene()));
+const ReadLayers& sceneFile() {
+  static const ReadLayers file = readBack(encodeLayers(drawnScene()));
   return file;
 }
 
@@ -104,6 +80,7 @@ TEST(LayerFile, HoldsTheLayersUnderTheirNames) {
                                           "depth.Z",
                                           "motion.X",
                                           "motion.Y",
+                                          "motion.Z",
                                           "variance.B",
                                           "variance.G",
                                           "variance.R",
@@ -115,7 +92,7 @@ TEST(LayerFile, HoldsTheLayersUnderTheirNames) {
 }
 
 TEST(LayerFile, DepthIsAlongTheViewAndNormalsFaceTheCamera) {
-  const ReadFile& file = sceneFile();
+  const ReadLayers& file = sceneFile();
   EXPECT_NEAR(file.at("depth.Z", onWall, 2), 5, 1e-5);  // not the longer way of that ray
   EXPECT_NEAR(file.at("depth.Z", onGlass, row), 3.995, 1e-5);
   EXPECT_EQ(file.at("depth.Z", onSky, row), 1e10f);
@@ -124,7 +101,7 @@ TEST(LayerFile, DepthIsAlongTheViewAndNormalsFaceTheCamera) {
 }
 
 TEST(LayerFile, AlbedoIsSeenThroughGlass) {
-  const ReadFile& file = sceneFile();
+  const ReadLayers& file = sceneFile();
   EXPECT_NEAR(file.at("albedo.R", onWall, row), 0.5, 1e-3);
   EXPECT_NEAR(file.at("albedo.B", onWall, row), 0.125, 1e-3);
   const double twoSurfaces = 0.96 * 0.96;  // of index 1.5, met nearly at right angles
@@ -134,7 +111,7 @@ TEST(LayerFile, AlbedoIsSeenThroughGlass) {
 }
 
 TEST(LayerFile, BodiesMoveByPixelsRightAndUp) {
-  const ReadFile& file = sceneFile();
+  const ReadLayers& file = sceneFile();
   const double pixelsPerMetre = size / (2 * std::tan(20 * pi / 180)) / 3.995, seconds = 0.5 / 24;
   EXPECT_NEAR(file.at("motion.X", onGlass, row), 0.6 * seconds * pixelsPerMetre, 1e-3);
   EXPECT_NEAR(file.at("motion.Y", onGlass, row), 0.3 * seconds * pixelsPerMetre, 1e-3);
@@ -153,7 +130,7 @@ TEST(Cryptomatte, HashesAndIdsAreThoseOfTheSpecification) {
 }
 
 TEST(LayerFile, CryptomatteNamesTheBodiesAndTheirCoverage) {
-  const ReadFile& file = sceneFile();
+  const ReadLayers& file = sceneFile();
   std::string prefix;
   for (const auto& [key, text] : file.texts)
     if (key.ends_with("/name") && text == "CryptoObject") prefix = key.substr(0, key.size() - 4);
