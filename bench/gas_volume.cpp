@@ -91,6 +91,17 @@ void splatAndBlur(benchmark::State& state, double deviation, int filterSize) {
   state.counters["error"] = errorOf(volume, particles, deviation, radius);
 }
 
+/// The bytes of the volume stored once, by all threads: the least that any splat does.
+void storeVolume(benchmark::State& state) {
+  constexpr std::int64_t floats = std::int64_t{4} * volumeCells * volumeCells * volumeCells, grain = 1 << 20;
+  AlignedVector<float> volume(floats);
+  for (auto _ : state)
+    parallelFor(0, floats, grain, [&](std::int64_t first, std::int64_t last) {
+      std::fill(&volume[first], &volume[first] + (last - first), 1.f);
+    });
+  state.counters["threads"] = threadCount();
+}
+
 constexpr int gasCells = 128;
 
 /// A fireball, and gas that moves everywhere.
@@ -238,6 +249,7 @@ const bool registered = [] {
   add("SplatBlur/Particles/300/Brisance", splatAndBlur, 1.0, 5);        // the thesis' nf = 5
   add("SplatBlur/ParticlesWide/300/Brisance", splatAndBlur, 6.0, 0);    // the scenes' default: 37 cells
   add("SplatBlur/ParticlesPeer/300/Brisance", splatAndBlur, 1.633, 0);  // as wide as the peer's
+  add("SplatBlur/Bytes/300/Memory", storeVolume);
   add("WriteVdb/Explosion/128/Brisance", writeExplosion);
   add("WriteVdb/ExplosionInMemory/128/Brisance", packExplosion);
 #ifdef BRISANCE_HAS_OPENVDB

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/aligned.h"
 #include "base/parallel.h"
 
 namespace brisance {
@@ -13,17 +15,21 @@ namespace brisance {
 /// Items in order of their bins, within a bin in the order in which they came. Its memory is used again.
 template <class Item>
 struct Binned {
-  std::vector<Item> items;
+  AlignedVector<Item> items;
   std::vector<std::uint32_t> start;  ///< first item of each bin, and the end of the last
 
   std::span<const Item> bin(std::int64_t number) const {
     return {items.data() + start[number], items.data() + start[number + 1]};
   }
 
-  std::vector<Item> unsorted;
-  std::vector<std::int32_t> binOf;
-  std::vector<std::uint32_t> next;  ///< per block of items and bin
+  AlignedVector<Item> grouped;             ///< in order of groups of neighbouring bins
+  std::vector<std::int32_t> binOf;         ///< of what comes n-th
+  std::vector<std::int32_t> groupedBinOf;  ///< of the grouped items
+  std::vector<std::uint32_t> next;         ///< per block of items and group: the place of the next item
+  std::vector<std::uint32_t> groupStart;
 };
+
+constexpr int sortRun = 256;  ///< items that are made at once
 
 namespace detail {
 /// Few enough that their counts stay small beside the items; depends on the items' number alone.
@@ -32,49 +38,105 @@ struct SortBlocks {
   std::int64_t number, size;
   explicit SortBlocks(std::int64_t items)
       : number(std::clamp<std::int64_t>(items / smallest, 1, most)), size((items + number - 1) / number) {}
+
+  /// Calls visit(block, first, end) for runs of at most sortRun items, a block's on one thread and in their order.
+  template <class Visit>
+  void forRuns(std::int64_t items, const Visit& visit) const {
+    parallelFor(0, number, 1, [&](std::int64_t firstBlock, std::int64_t lastBlock) {
+      for (std::int64_t block = firstBlock; block < lastBlock; ++block) {
+        const std::int64_t end = std::min(items, (block + 1) * size);
+        for (std::int64_t n = block * size; n < end; n += sortRun) visit(block, n, std::min(end, n + sortRun));
+      }
+    });
+  }
 };
 
-/// From counts per block and bin to the place of each block's first item in each bin.
-inline void placeBlocks(std::int64_t blocks, std::int64_t bins, std::vector<std::uint32_t>& next,
+/// Groups of 2^shift neighbouring bins: so few that the caches hold a line of each while items are spread over them,
+/// so many that they hold a group while it is sorted.
+struct BinGroups {
+  static constexpr std::int64_t most = 512;
+  int shift = 0;
+  std::int64_t number;
+  explicit BinGroups(std::int64_t bins) {
+    while ((bins - 1) >> shift >= most) ++shift;
+    number = ((bins - 1) >> shift) + 1;
+  }
+};
+
+/// From counts per block and group to the place of each block's first item in each group.
+inline void placeBlocks(std::int64_t blocks, std::int64_t groups, std::vector<std::uint32_t>& next,
                         std::vector<std::uint32_t>& start) {
-  start.resize(static_cast<std::size_t>(bins) + 1);
+  start.resize(static_cast<std::size_t>(groups) + 1);
   std::uint32_t at = 0;
-  for (std::int64_t bin = 0; bin < bins; ++bin) {
-    start[bin] = at;
+  for (std::int64_t group = 0; group < groups; ++group) {
+    start[group] = at;
     for (std::int64_t block = 0; block < blocks; ++block) {
-      const std::uint32_t count = next[block * bins + bin];
-      next[block * bins + bin] = at;
+      const std::uint32_t count = next[block * groups + group];
+      next[block * groups + group] = at;
       at += count;
     }
   }
-  start[bins] = at;
+  start[groups] = at;
+}
+
+/// Sorts the grouped items [first, end) by their bins, `bins` of them from firstBin on.
+template <class Item>
+void sortGroup(Binned<Item>& sorted, std::uint32_t first, std::uint32_t end, std::int64_t firstBin, std::int64_t bins) {
+  std::vector<std::uint32_t> next(bins, 0);
+  for (std::uint32_t n = first; n < end; ++n) ++next[sorted.groupedBinOf[n] - firstBin];
+  std::uint32_t at = first;
+  for (std::int64_t bin = 0; bin < bins; ++bin) {
+    sorted.start[firstBin + bin] = at;
+    at += next[bin];
+    next[bin] = sorted.start[firstBin + bin];
+  }
+  for (std::uint32_t n = first; n < end; ++n)
+    sorted.items[next[sorted.groupedBinOf[n] - firstBin]++] = sorted.grouped[n];
 }
 }  // namespace detail
 
-/// Sorts what `make(n, item)` fills for n = 0 .. count - 1; it returns the item's bin, or -1 to leave it out. It is
-/// called from several threads, once for each n. Fewer than 2^32 items.
-template <class Item, class Make>
-void sortIntoBins(std::int64_t count, std::int64_t bins, const Make& make, Binned<Item>& result) {
+/// Sorts items n = 0 .. count - 1, fewer than 2^32: binsOf(first, end, bins) tells the bins of a run of them, each
+/// below `bins` or -1 to leave it out; makeItems(first, end, items) makes them, with whatever for those left out. Both
+/// are called from several threads, once for each run. The items are spread over groups of bins and each group is
+/// sorted apart: spread over all bins at once, each would come to a line of memory of its own.
+template <class Item, class BinsOf, class MakeItems>
+void sortIntoBins(std::int64_t count, std::int64_t bins, const BinsOf& binsOf, const MakeItems& makeItems,
+                  Binned<Item>& result) {
   const detail::SortBlocks blocks(count);
-  result.unsorted.resize(static_cast<std::size_t>(count));
+  const detail::BinGroups groups(bins);
   result.binOf.resize(static_cast<std::size_t>(count));
-  result.next.assign(static_cast<std::size_t>(blocks.number * bins), 0);
-  const auto forItemsOfBlocks = [&](const auto& visit) {
-    parallelFor(0, blocks.number, 1, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t block = first; block < last; ++block)
-        for (std::int64_t n = block * blocks.size; n < std::min(count, (block + 1) * blocks.size); ++n)
-          visit(result.next.data() + block * bins, n);
-    });
-  };
-  forItemsOfBlocks([&](std::uint32_t* counts, std::int64_t n) {
-    const std::int64_t bin = make(n, result.unsorted[n]);
-    result.binOf[n] = static_cast<std::int32_t>(bin);
-    if (bin >= 0) ++counts[bin];
+  result.next.assign(static_cast<std::size_t>(blocks.number * groups.number), 0);
+  blocks.forRuns(count, [&](std::int64_t block, std::int64_t first, std::int64_t end) {
+    std::uint32_t* counts = result.next.data() + block * groups.number;
+    binsOf(first, end, result.binOf.data() + first);
+    for (std::int64_t n = first; n < end; ++n)
+      if (result.binOf[n] >= 0) ++counts[result.binOf[n] >> groups.shift];
   });
-  detail::placeBlocks(blocks.number, bins, result.next, result.start);
-  result.items.resize(result.start.back());
-  forItemsOfBlocks([&](std::uint32_t* next, std::int64_t n) {
-    if (result.binOf[n] >= 0) result.items[next[result.binOf[n]]++] = result.unsorted[n];
+  detail::placeBlocks(blocks.number, groups.number, result.next, result.groupStart);
+  const std::uint32_t kept = result.groupStart.back();
+  result.grouped.resize(kept);
+  result.groupedBinOf.resize(kept);
+  blocks.forRuns(count, [&](std::int64_t block, std::int64_t first, std::int64_t end) {
+    std::uint32_t* next = result.next.data() + block * groups.number;
+    std::array<Item, sortRun> items;
+    makeItems(first, end, items.data());
+    for (std::int64_t n = first; n < end; ++n) {
+      const std::int32_t bin = result.binOf[n];
+      if (bin < 0) continue;
+      const std::uint32_t at = next[bin >> groups.shift]++;
+      result.grouped[at] = items[n - first];
+      result.groupedBinOf[at] = bin;
+    }
+  });
+  result.items.resize(kept);
+  result.start.resize(static_cast<std::size_t>(bins) + 1);
+  result.start[bins] = kept;
+  parallelFor(0, groups.number, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t group = first; group < last; ++group) {
+      const std::int64_t firstBin = group << groups.shift;
+      detail::sortGroup(result, result.groupStart[group], result.groupStart[group + 1], firstBin,
+                        std::min(bins - firstBin, std::int64_t{1} << groups.shift));
+    }
   });
 }
 

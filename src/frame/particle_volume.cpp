@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/stream_copy.h"
 #include "base/vector_path.h"
+#include "grid/separable_blur.h"
 
 namespace brisance {
 
@@ -20,23 +22,60 @@ SymmetricFilter filterFor(const ParticleVolumeSettings& settings) {
   return gaussianFilter(deviation, radius);
 }
 
-/// The drawn particles, their places counted in cells of the asked volume.
-void sortDrawn(const FrameParticles& particles, const ParticleVolumeSettings& settings,
-               const std::function<float(std::size_t)>& weigh, const std::function<Vec3f(float)>& colourOf,
-               Binned<Point>& points) {
-  const Vec3d half(.5, .5, .5);
-  const Box3 inside{Vec3d() - half, Vec3d(settings.size) - half};
-  const auto make = [&](std::int64_t n, Point& point) -> std::int64_t {
-    const float mass = weigh(n);
-    const Vec3d place = (Vec3d(particles.position[n]) - settings.corner) / settings.cellSize - half;
-    if (!(mass > 0) || !inside.contains(place)) return -1;
-    const Vec3f colour = colourOf(particles.temperature[n]) * mass;
-    point.amount = {mass, colour.x, colour.y, colour.z};
-    for (int axis = 0; axis < 3; ++axis) point.share[axis] = axisShare(place[axis], settings.size[axis]);
-    return rowOf(point, settings.size.y);
-  };
-  const std::int64_t rows = static_cast<std::int64_t>(settings.size.y) * settings.size.z;
-  sortIntoBins(static_cast<std::int64_t>(particles.position.size()), rows, make, points);
+/// The drawn particles as points, their places counted in cells of the asked volume; runs of them at once.
+struct DrawnPoints {
+  const FrameParticles& particles;
+  const ParticleVolumeSettings& settings;
+  const std::function<float(std::size_t)>& weigh;
+  const std::function<Vec3f(float)>& colourOf;
+
+  /// Of a run, the n-th particle's place along an axis.
+  auto placeAlong(int axis, std::int64_t first) const {
+    const float* places = &particles.position[first].x + axis;
+    return [places, corner = settings.corner[axis], perCell = 1 / settings.cellSize](int n) {
+      return (double(places[3 * n]) - corner) * perCell - .5;
+    };
+  }
+  /// Rows of cells, -1 for what is not drawn.
+  void rowsOf(std::int64_t first, std::int64_t end, std::int32_t* rows) const {
+    const int count = static_cast<int>(end - first);
+    float mass[sortRun];
+    for (int n = 0; n < count; ++n) mass[n] = weigh(first + n);
+    runWide([&] {
+      const ShareRun share = shares(first, count);
+      for (int n = 0; n < count; ++n) rows[n] = mass[n] > 0 ? rowOf(share[n], settings.size.y) : -1;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto place = placeAlong(axis, first);
+        const double size = settings.size[axis];
+        for (int n = 0; n < count; ++n) rows[n] = place(n) >= -.5 && place(n) <= size - .5 ? rows[n] : -1;
+      }
+    });
+  }
+  void make(std::int64_t first, std::int64_t end, Point* points) const {
+    const int count = static_cast<int>(end - first);
+    ShareRun share;
+    runWide([&] { share = shares(first, count); });
+    for (int n = 0; n < count; ++n) {
+      const float mass = weigh(first + n);
+      const Vec3f colour = colourOf(particles.temperature[first + n]) * mass;
+      points[n] = {share[n], {mass, colour.x, colour.y, colour.z}};
+    }
+  }
+
+ private:
+  ShareRun shares(std::int64_t first, int count) const {
+    ShareRun share;
+    for (int axis = 0; axis < 3; ++axis) share.set(axis, count, settings.size[axis], placeAlong(axis, first));
+    return share;
+  }
+};
+
+void sortDrawn(const DrawnPoints& drawn, Binned<Point>& points) {
+  const std::int64_t rows = static_cast<std::int64_t>(drawn.settings.size.y) * drawn.settings.size.z;
+  sortIntoBins(
+      static_cast<std::int64_t>(drawn.particles.position.size()), rows,
+      [&](std::int64_t first, std::int64_t end, std::int32_t* bins) { drawn.rowsOf(first, end, bins); },
+      [&](std::int64_t first, std::int64_t end, Point* made) { drawn.make(first, end, made); }, points);
 }
 
 /// Cells of the asked volume, by their numbers.
@@ -53,26 +92,28 @@ struct PointBounds {
   }
 };
 
-PointBounds boundsOf(const std::vector<Point>& points) {
-  constexpr std::int64_t blockSize = 1 << 14;
-  const std::int64_t count = std::ssize(points), blocks = (count + blockSize - 1) / blockSize;
-  std::vector<PointBounds> ofBlock(blocks);
-  parallelFor(0, blocks, 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t block = first; block < last; ++block)
-      for (std::int64_t n = block * blockSize; n < std::min(count, (block + 1) * blockSize); ++n) {
-        const auto& [x, y, z] = points[n].share;
-        ofBlock[block].include({{x.lower, y.lower, z.lower}, {x.lower + 1, y.lower + 1, z.lower + 1}});
-      }
+PointBounds boundsOfLayer(const Binned<Point>& points, int rowsPerLayer, int k) {
+  PointBounds bounds;
+  for (int j = 0; j < rowsPerLayer; ++j)
+    for (const Point& point : points.bin(j + static_cast<std::int64_t>(rowsPerLayer) * k))
+      bounds.include({{point.lower, j, k}, {point.lower + 1, j + 1, k + 1}});
+  return bounds;
+}
+
+PointBounds boundsOf(const Binned<Point>& points, const Vec3i& volumeSize) {
+  std::vector<PointBounds> ofLayer(volumeSize.z);
+  parallelFor(0, volumeSize.z, 1, [&](std::int64_t first, std::int64_t last) {
+    for (int k = static_cast<int>(first); k < last; ++k) ofLayer[k] = boundsOfLayer(points, volumeSize.y, k);
   });
   PointBounds all;
-  for (const PointBounds& block : ofBlock) all.include(block);
+  for (const PointBounds& layer : ofLayer) all.include(layer);
   return all;
 }
 
 /// What any particle reaches, and one empty cell more, inside the volume.
 CellBox reachedCells(const Binned<Point>& points, int radius, const Vec3i& volumeSize) {
   if (points.items.empty()) return {{0, 0, 0}, {1, 1, 1}};
-  const PointBounds bounds = boundsOf(points.items);
+  const PointBounds bounds = boundsOf(points, volumeSize);
   const Vec3i rim(radius + 1, radius + 1, radius + 1);
   const Vec3i lower = max(Vec3i(0, 0, 0), bounds.lower - rim);
   return {lower, min(volumeSize - Vec3i(1, 1, 1), bounds.upper + rim) - lower + Vec3i(1, 1, 1)};
@@ -96,17 +137,56 @@ void layOut(Grid3<T>& grid, const CellBox& cells, const ParticleVolumeSettings& 
   resizeForOverwriting(grid.values, static_cast<std::size_t>(cells.size.x) * cells.size.y * cells.size.z);
 }
 
-/// Density and colour of one row from its blurred sums; none outside the span.
-void finishRow(const CellSpan& span, float* const* sums, float perVolume, int cells, float* density, Vec3f* colour) {
-  std::fill(density, density + span.first, 0.f);
-  std::fill(colour, colour + span.first, Vec3f());
-  for (int i = span.first; i < span.end; ++i) {
-    const float mass = sums[0][i], perMass = mass > 0 ? 1 / mass : 0;
-    density[i] = mass * perVolume;
-    colour[i] = {sums[1][i] * perMass, sums[2][i] * perMass, sums[3][i] * perMass};
+/// Named as a vector, for the compiler makes single loads and stores of a loop over threes and fours.
+typedef float Vector __attribute__((vector_size(16 * sizeof(float)), aligned(sizeof(float)), may_alias));
+
+/// Density and colour of some cells of a row, on the way from the blurred sums to memory.
+struct FinishedCells {
+  static constexpr int most = 512, block = 16;
+  float density[most], perMass[most], colour[3 * most + 4];
+
+  /// Of the first `count` cells of `sums`, and of more up to a whole block.
+  void make(const float* sums, int count, float perVolume) {
+    const int rounded = (count + block - 1) / block * block;
+    for (int n = 0; n < rounded; ++n) density[n] = sums[channels * n];
+    for (int n = 0; n < rounded; ++n) perMass[n] = density[n] > 0 ? 1 / density[n] : 0;
+    for (int n = 0; n < rounded; ++n) density[n] *= perVolume;
+    for (int n = 0; n < rounded; n += block) {
+      const Vector inverse = *reinterpret_cast<const Vector*>(perMass + n);
+      meanColours<0>(sums + channels * n, inverse, colour + 3 * n);
+      meanColours<4>(sums + channels * n, inverse, colour + 3 * n);
+      meanColours<8>(sums + channels * n, inverse, colour + 3 * n);
+      meanColours<12>(sums + channels * n, inverse, colour + 3 * n);
+    }
   }
-  std::fill(density + span.end, density + cells, 0.f);
-  std::fill(colour + span.end, colour + cells, Vec3f());
+
+ private:
+  /// Of four cells of sixteen; the four numbers written beyond theirs those of the next replace.
+  template <int n>
+  static void meanColours(const float* sums, const Vector& perMass, float* colours) {
+    const Vector perMassOf = __builtin_shufflevector(perMass, perMass, n, n, n, n, n + 1, n + 1, n + 1, n + 1, n + 2,
+                                                     n + 2, n + 2, n + 2, n + 3, n + 3, n + 3, n + 3);
+    const Vector mean = *reinterpret_cast<const Vector*>(sums + channels * n) * perMassOf;
+    *reinterpret_cast<Vector*>(colours + 3 * n) =
+        __builtin_shufflevector(mean, mean, 1, 2, 3, 5, 6, 7, 9, 10, 11, 13, 14, 15, -1, -1, -1, -1);
+  }
+};
+
+/// Density and colour of one row from its blurred sums; none outside the span.
+void finishRow(const CellSpan& span, const float* sums, float perVolume, int cells, float* density, float* colour) {
+  const auto clear = [&](int first, int end) {
+    streamZeros(density + first, end - first);
+    streamZeros(colour + 3 * first, 3 * (end - first));
+  };
+  clear(0, span.first);
+  FinishedCells some;
+  for (int i = span.first; i < span.end; i += FinishedCells::most) {
+    const int count = std::min(FinishedCells::most, span.end - i);
+    some.make(sums + channels * i, count, perVolume);
+    streamCopy(density + i, some.density, count);
+    streamCopy(colour + 3 * i, some.colour, 3 * count);
+  }
+  clear(span.end, cells);
 }
 
 BlurTask volumeBlur(const SymmetricFilter& filter, ParticleVolume& volume) {
@@ -114,10 +194,11 @@ BlurTask volumeBlur(const SymmetricFilter& filter, ParticleVolume& volume) {
   BlurTask task{.size = size, .channels = channels, .filter = filter, .fill = {}, .finish = {}};
   const double cell = volume.density.cellSize;
   const float perVolume = static_cast<float>(1 / (cell * cell * cell));
-  task.finish = [&volume, perVolume, cells = size.x](int j, int k, const CellSpan& span, float* const* sums) {
+  task.finish = [&volume, perVolume, cells = size.x](int j, int k, const CellSpan& span, const float* sums) {
     float* density = &volume.density(0, j, k);
-    Vec3f* colour = &volume.colour(0, j, k);
+    float* colour = &volume.colour(0, j, k).x;
     runWide([&] { finishRow(span, sums, perVolume, cells, density, colour); });
+    endStreaming();
   };
   return task;
 }
@@ -129,15 +210,14 @@ void splatParticles(const FrameParticles& particles, const ParticleVolumeSetting
                     ParticleVolume& volume, SplatScratch& scratch) {
   const SymmetricFilter filter = filterFor(settings);
   Binned<Point>& points = scratch.points;
-  sortDrawn(particles, settings, weigh, colourOf, points);
+  sortDrawn({particles, settings, weigh, colourOf}, points);
   const CellBox cells = reachedCells(points, filter.radius(), settings.size);
   layOut(volume.density, cells, settings);
   layOut(volume.colour, cells, settings);
   std::array<std::vector<float>, 3> gain;
   for (int axis = 0; axis < 3; ++axis) gain[axis] = filter.gainInside(settings.size[axis]);
   BlurTask blur = volumeBlur(filter, volume);
-  const RowSplat<channels> splat{points, gain, cells.lower.x};
-  blur.fill = [&](int j, int k, float* row) { return splat(j + cells.lower.y, k + cells.lower.z, row); };
+  blur.fill = LayerSplat<channels>(points, std::move(gain), cells.lower);
   blurSeparably(blur);
 }
 

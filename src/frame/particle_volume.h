@@ -5,7 +5,7 @@
 
 #include "frame/frame.h"
 #include "grid/grid3.h"
-#include "grid/splat_blur.h"
+#include "grid/splat.h"
 
 namespace brisance {
 

@@ -9,7 +9,7 @@ namespace brisance {
 
 namespace {
 
-constexpr int blockPlaces = 128;  // whose corners stay in the nearest cache
+constexpr int blockPlaces = PlaceBlock::most;  // whose corners stay in the nearest cache
 
 /// For some places: the first corner of their cells, how far they are into them, and the values at the corners, in
 /// pairs along x.
@@ -20,13 +20,13 @@ struct Corners {
 };
 
 /// Cell and share along one axis; `cell` is counted in steps of `stride`.
-inline void addAxis(const Vec3d* places, int count, int axis, const Grid3<float>& grid, Corners& corners) {
+inline void addAxis(const double* places, int count, int axis, const Grid3<float>& grid, Corners& corners) {
   const double origin = grid.origin[axis], last = grid.size[axis] - 1.0, inverse = 1 / grid.cellSize;
   const int lastCell = grid.size[axis] - 2;
   const std::int64_t stride = grid.stride(axis);
   float* share = corners.share[axis];
   for (int n = 0; n < count; ++n) {
-    const double x = (places[n][axis] - origin) * inverse;
+    const double x = (places[n] - origin) * inverse;
     const double inside = std::min(x > 0 ? x : 0.0, last);
     const int cell = std::min(static_cast<int>(inside), lastCell);
     share[n] = static_cast<float>(inside - cell);
@@ -59,20 +59,28 @@ inline void mix(const Corners& corners, int count, float* values) {
 
 }  // namespace
 
-void interpolateMany(const Grid3<float>& grid, std::span<const Vec3d> places, float* values) {
+void interpolateMany(const Grid3<float>& grid, const PlaceBlock& places, int count, float* values) {
   if (std::min({grid.size.x, grid.size.y, grid.size.z}) < 2) {
-    for (const Vec3d& place : places) *values++ = interpolate(grid, place);
+    for (int n = 0; n < count; ++n)
+      values[n] = interpolate(grid, Vec3d(places.along[0][n], places.along[1][n], places.along[2][n]));
     return;
   }
   Corners corners;
-  for (std::size_t begin = 0; begin < places.size(); begin += blockPlaces) {
-    const int count = static_cast<int>(std::min<std::size_t>(blockPlaces, places.size() - begin));
-    runWide([&] {
-      std::fill_n(corners.first, count, 0);
-      for (int axis = 0; axis < 3; ++axis) addAxis(places.data() + begin, count, axis, grid, corners);
-      loadPairs(grid, count, corners);
-      mix(corners, count, values + begin);
-    });
+  runWide([&] {
+    std::fill_n(corners.first, count, 0);
+    for (int axis = 0; axis < 3; ++axis) addAxis(places.along[axis], count, axis, grid, corners);
+    loadPairs(grid, count, corners);
+    mix(corners, count, values);
+  });
+}
+
+void interpolateMany(const Grid3<float>& grid, std::span<const Vec3d> places, float* values) {
+  PlaceBlock block;
+  for (std::size_t begin = 0; begin < places.size(); begin += PlaceBlock::most) {
+    const int count = static_cast<int>(std::min<std::size_t>(PlaceBlock::most, places.size() - begin));
+    for (int axis = 0; axis < 3; ++axis)
+      for (int n = 0; n < count; ++n) block.along[axis][n] = places[begin + n][axis];
+    interpolateMany(grid, block, count, values + begin);
   }
 }
 

@@ -7,8 +7,17 @@
 
 namespace brisance {
 
-/// Trilinear values at some places, in single precision; beyond the samples the nearest ones hold. `values` has room
-/// for one per place. The same bits with any vectors.
+/// Some places, one array per axis, so that loops over them become loops over vectors.
+struct PlaceBlock {
+  static constexpr int most = 256;
+  double along[3][most];  ///< [m]
+};
+
+/// Trilinear values at `count` places, in single precision; beyond the samples the nearest ones hold. The same bits
+/// with any vectors.
+void interpolateMany(const Grid3<float>& grid, const PlaceBlock& places, int count, float* values);
+
+/// The same for any number of places.
 void interpolateMany(const Grid3<float>& grid, std::span<const Vec3d> places, float* values);
 
 }  // namespace brisance

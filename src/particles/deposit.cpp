@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/vector_path.h"
+#include "grid/separable_blur.h"
 
 namespace brisance {
 
@@ -49,36 +51,56 @@ bool hasSolids(const Grid3<std::uint8_t>& solid) {
 void normalizeByGas(const Grid3<std::uint8_t>& solid, const SymmetricFilter& filter, Grid3<float>& perSource) {
   perSource = Grid3<float>(solid.size, solid.origin, solid.cellSize);
   BlurTask task{.size = solid.size, .channels = 1, .filter = filter, .fill = {}, .finish = {}};
-  task.fill = [&](int j, int k, float* cells) {
-    for (int i = 0; i < solid.size.x; ++i) cells[i] = solid(i, j, k) ? 0.f : 1.f;
-    return CellSpan{0, solid.size.x};
+  task.fill = [&](const CellSpan& rows, int k, LayerRows& near, LayerRows&) {
+    for (int j = std::max(0, rows.first); j < std::min(solid.size.y, rows.end); ++j) {
+      for (int i = 0; i < solid.size.x; ++i) near[j][i] = solid(i, j, k) ? 0.f : 1.f;
+      near.hasFilled(j, {0, solid.size.x});
+    }
   };
-  task.finish = [&](int j, int k, const CellSpan&, float* const* share) {
-    for (int i = 0; i < solid.size.x; ++i) perSource(i, j, k) = share[0][i] > 0 ? 1 / share[0][i] : 0;
+  task.finish = [&](int j, int k, const CellSpan&, const float* share) {
+    for (int i = 0; i < solid.size.x; ++i) perSource(i, j, k) = share[i] > 0 ? 1 / share[i] : 0;
   };
   blurSeparably(task);
 }
 
-/// The deposit as points in cells. Where a solid stands among the eight cells around a particle, all of it belongs to
-/// the nearest of them that is not solid.
+/// The deposit as points in cells; runs of them at once. Where a solid stands among the eight cells around a particle,
+/// all of it belongs to the nearest of them that is not solid.
 class DepositPoints {
  public:
   DepositPoints(const Grid3<std::uint8_t>& solid, bool anySolids) : solid_(solid), anySolids_(anySolids) {}
 
-  std::array<AxisShare, 3> shares(const Vec3d& place) const {
-    std::array<AxisShare, 3> share;
-    for (int axis = 0; axis < 3; ++axis)
-      share[axis] = axisShare((place[axis] - solid_.origin[axis]) / solid_.cellSize, solid_.size[axis]);
-    return anySolids_ ? outsideSolids(share) : share;
+  /// Rows of cells; -1 for what burns nothing.
+  void rowsOf(const Vec3d* places, const double* burnt, int count, std::int32_t* rows) const {
+    ShareRun share;
+    setShares(places, count, share);
+    runWide([&] {
+      for (int n = 0; n < count; ++n) rows[n] = burnt[n] > 0 ? rowOf(share[n], solid_.size.y) : -1;
+    });
+  }
+  void make(const Vec3d* places, const double* burnt, int count, SplatPoint<1>* points) const {
+    ShareRun share;
+    setShares(places, count, share);
+    for (int n = 0; n < count; ++n) points[n] = {share[n], {static_cast<float>(burnt[n])}};
   }
 
  private:
-  std::array<AxisShare, 3> outsideSolids(const std::array<AxisShare, 3>& share) const {
-    std::array<AxisShare, 3> nearest = share;
+  void setShares(const Vec3d* places, int count, ShareRun& share) const {
+    const double perCell = 1 / solid_.cellSize;
+    runWide([&] {
+      for (int axis = 0; axis < 3; ++axis)
+        share.set(axis, count, solid_.size[axis],
+                  [place = &places->x + axis, origin = solid_.origin[axis], perCell](int n) {
+                    return (place[3 * n] - origin) * perCell;
+                  });
+    });
+    for (int n = 0; anySolids_ && n < count; ++n) share.set(n, outsideSolids(share[n]));
+  }
+  CellShares outsideSolids(const CellShares& share) const {
+    CellShares nearest = share;
     float largest = -1;
     bool touches = false;
     for (int corner = 0; corner < 8; ++corner) {
-      std::array<AxisShare, 3> cell;
+      CellShares cell;
       float weight = 1;
       for (int axis = 0; axis < 3; ++axis) {
         const bool upper = corner >> axis & 1;
@@ -106,6 +128,21 @@ void renewNormalizer(const Grid3<std::uint8_t>& solid, const SymmetricFilter& fi
   scratch.kernelCells = kernelCells;
 }
 
+void sortBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const Grid3<std::uint8_t>& solid,
+               bool anySolids, Binned<SplatPoint<1>>& sorted) {
+  const DepositPoints points(solid, anySolids);
+  const Vec3d* places = particles.position.data();
+  sortIntoBins(
+      static_cast<std::int64_t>(burnt.size()), static_cast<std::int64_t>(solid.size.y) * solid.size.z,
+      [&](std::int64_t first, std::int64_t end, std::int32_t* rows) {
+        points.rowsOf(places + first, burnt.data() + first, static_cast<int>(end - first), rows);
+      },
+      [&](std::int64_t first, std::int64_t end, SplatPoint<1>* made) {
+        points.make(places + first, burnt.data() + first, static_cast<int>(end - first), made);
+      },
+      sorted);
+}
+
 }  // namespace
 
 void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt, const BurnSettings& settings,
@@ -114,29 +151,22 @@ void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt
   BlurTask task{.size = solid.size, .channels = 1, .filter = depositFilter(kernelCells), .fill = {}, .finish = {}};
   const bool solids = hasSolids(solid);
   if (solids) renewNormalizer(solid, task.filter, kernelCells, scratch);
-  const DepositPoints points(solid, solids);
-  const auto make = [&](std::int64_t n, SplatPoint<1>& point) -> std::int64_t {
-    if (!(burnt[n] > 0)) return -1;
-    point = {points.shares(particles.position[n]), {static_cast<float>(burnt[n])}};
-    return rowOf(point, solid.size.y);
-  };
-  sortIntoBins(static_cast<std::int64_t>(burnt.size()), static_cast<std::int64_t>(solid.size.y) * solid.size.z, make,
-               scratch.points);
-
+  sortBurnt(particles, burnt, solid, solids, scratch.points);
   std::array<std::vector<float>, 3> gain;  // what solids do not keep the box's faces do not either
   for (int axis = 0; axis < 3; ++axis)
     gain[axis] = solids ? std::vector<float>(solid.size[axis], 1.f) : task.filter.gainInside(solid.size[axis]);
-  const RowSplat<1> splat{scratch.points, gain};
-  task.fill = [&](int j, int k, float* cells) {
-    const CellSpan filled = splat(j, k, cells);
-    for (int i = filled.first; solids && i < filled.end; ++i) cells[i] *= scratch.perSource(i, j, k);
-    return filled;
+  const LayerSplat<1> splat(scratch.points, std::move(gain));
+  task.fill = [&](const CellSpan& rows, int k, LayerRows& near, LayerRows& far) {
+    splat(rows, k, near, far);
+    for (int j = std::max(0, rows.first); solids && j < std::min(solid.size.y, rows.end); ++j)
+      for (int i = near.filled(j).first; i < std::min(solid.size.x, near.filled(j).end); ++i)
+        near[j][i] *= scratch.perSource(i, j, k);
   };
   const float perVolume = static_cast<float>(1 / (dt * rate.cellSize * rate.cellSize * rate.cellSize));
-  task.finish = [&](int j, int k, const CellSpan& span, float* const* mass) {
+  task.finish = [&](int j, int k, const CellSpan& span, const float* mass) {
     float* row = &rate(0, j, k);
     std::fill(row, row + std::max(0, span.first), 0.f);
-    for (int i = span.first; i < span.end; ++i) row[i] = solid(i, j, k) ? 0.f : mass[0][i] * perVolume;
+    for (int i = span.first; i < span.end; ++i) row[i] = solid(i, j, k) ? 0.f : mass[i] * perVolume;
     std::fill(row + std::max(0, span.end), row + rate.size.x, 0.f);
   };
   blurSeparably(task);

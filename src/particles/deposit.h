@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grid/grid3.h"
-#include "grid/splat_blur.h"
+#include "grid/splat.h"
 #include "particles/particle_set.h"
 #include "particles/particle_settings.h"
 

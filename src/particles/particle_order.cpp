@@ -1,40 +1,40 @@
 #include "particles/particle_order.h"
 
-#include <cmath>
+#include <numeric>
+
+#include "base/vector_path.h"
 
 namespace brisance {
 
 namespace {
 constexpr std::int64_t grain = 1 << 14;  // particles per task
 
-/// Row of the cells that `place` lies in; the nearest one when it lies outside.
-struct RowOf {
-  Vec3i size;
-  Vec3d origin;
-  double cellSize;
-
-  std::int64_t operator()(const Vec3d& place) const {
-    return along(place, 1) + static_cast<std::int64_t>(size.y) * along(place, 2);
-  }
-
- private:
-  int along(const Vec3d& place, int axis) const {
-    const double cell = (place[axis] - origin[axis]) / cellSize + 0.5;
-    return static_cast<int>(std::min(cell > 0 ? cell : 0.0, size[axis] - 1.0));
-  }
-};
+/// Rows of the cells that particles lie in; the nearest ones when they lie outside.
+void rowsOf(const Vec3d* places, int count, const Grid3<float>& cells, std::int32_t* rows) {
+  const double perCell = 1 / cells.cellSize;
+  const auto along = [&](const Vec3d& place, int axis) {
+    const double cell = (place[axis] - cells.origin[axis]) * perCell + 0.5;
+    return static_cast<std::int32_t>(std::min(cell > 0 ? cell : 0.0, cells.size[axis] - 1.0));
+  };
+  runWide([&] {
+    for (int n = 0; n < count; ++n) rows[n] = along(places[n], 1) + cells.size.y * along(places[n], 2);
+  });
+}
 
 }  // namespace
 
 void sortByRow(ParticleSet& particles, const Grid3<float>& cells, OrderScratch& scratch) {
-  const RowOf rowOf{cells.size, cells.origin, cells.cellSize};
   const std::int64_t count = static_cast<std::int64_t>(particles.size());
-  const auto make = [&](std::int64_t n, std::uint32_t& item) {
-    item = static_cast<std::uint32_t>(n);
-    return rowOf(particles.position[n]);
-  };
-  sortIntoBins(count, static_cast<std::int64_t>(rowOf.size.y) * rowOf.size.z, make, scratch.order);
-  const std::vector<std::uint32_t>& order = scratch.order.items;
+  sortIntoBins(
+      count, static_cast<std::int64_t>(cells.size.y) * cells.size.z,
+      [&](std::int64_t first, std::int64_t end, std::int32_t* rows) {
+        rowsOf(particles.position.data() + first, static_cast<int>(end - first), cells, rows);
+      },
+      [](std::int64_t first, std::int64_t end, std::uint32_t* items) {
+        std::iota(items, items + (end - first), static_cast<std::uint32_t>(first));
+      },
+      scratch.order);
+  const AlignedVector<std::uint32_t>& order = scratch.order.items;
   const auto sortField = [&](auto& field, auto& sorted) {
     sorted.resize(field.size());
     parallelFor(0, count, grain, [&](std::int64_t first, std::int64_t last) {

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/vector_path.h"
 #include "grid/interpolate_many.h"
+#include "particles/way_through_cells.h"
 
 namespace brisance {
 
@@ -32,55 +33,16 @@ inline double logRatio(double x) {
   return (e == 0 ? 2 + 2 * sum : logarithm) / (e == 0 ? x + 2 : x);
 }
 
-/// The place that `from` reaches on its way to `to`, one axis after the other, stopping short of closed faces:
-/// particles slide along walls; beyond periodic faces they go on from the opposite ones. False when it leaves the box.
-bool moveThrough(const GasAround& gas, const Vec3d& from, const Vec3d& to, Vec3d& reached) {
-  const MacVelocity& openShare = gas.openShare;
-  const Vec3i cells = openShare.cells();
-  const double h = openShare.u.cellSize;
-  const Vec3d corner = openShare.u.origin - Vec3d(0, .5, .5) * h;
-  constexpr double justShort = 1e-6;  // of a cell
-  const double inverse = 1 / h;       // as in BlockStep, which must find particles in the same cells
-  Vec3d p = (from - corner) * inverse;
-  const Vec3d goal = (to - corner) * inverse;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Grid3<float>& open = openShare.component(axis);
-    int cell[3] = {static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z)};
-    const bool forward = goal[axis] > p[axis];
-    double end = goal[axis];
-    while (forward ? cell[axis] + 1 <= end : cell[axis] > end) {
-      const int face = cell[axis] + (forward ? 1 : 0);
-      int at[3] = {cell[0], cell[1], cell[2]};
-      at[axis] = face;
-      if (open(at[0], at[1], at[2]) == 0) {
-        end = face + (forward ? -justShort : justShort);
-        break;
-      }
-      cell[axis] += forward ? 1 : -1;
-      if (cell[axis] >= 0 && cell[axis] < cells[axis]) continue;
-      if (!gas.periodic[axis]) return false;
-      const int period = forward ? -cells[axis] : cells[axis];
-      cell[axis] += period;
-      end += period;
-    }
-    p[axis] = end;
-  }
-  reached = corner + p * h;
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(p[axis] >= 0 && p[axis] < cells[axis])) return false;
-  return true;
-}
-
-constexpr int blockParticles = 256;  // whose numbers stay in the nearest cache
+constexpr int blockParticles = PlaceBlock::most;  // whose numbers stay in the nearest cache
 
 /// Some particles, one array per number, so that loops over them become loops over vectors.
 struct Block {
+  PlaceBlock place, goal;
+  CellBlock from, to;  // the cells of place and goal
   float wind[3][blockParticles];
   double velocity[3][blockParticles];
-  double moved[3][blockParticles];
   double resistance[blockParticles];  // k [1/m]; negative for what has no mass and moves with the gas
   float around[blockParticles];       // [K]
-  std::uint8_t sameCell[blockParticles];
 };
 
 /// With d = g - v: d' = -k |d| d, so |d| = |d0| / (1 + k |d0| t) and its integral is d0 log(1 + k |d0| t) / (k |d0|).
@@ -103,7 +65,7 @@ void dragBlock(Block& b, int count, double dt) {
     const DragFactors drag = dragFactors(lengthOf(d[0], d[1], d[2]), massless ? 0 : b.resistance[n], dt);
     const double delay = massless ? 0 : drag.delay, kept = massless ? 0 : drag.kept;
     for (int axis = 0; axis < 3; ++axis) {
-      b.moved[axis][n] = g[axis] * dt - d[axis] * delay;
+      b.goal.along[axis][n] = b.place.along[axis][n] + (g[axis] * dt - d[axis] * delay);
       b.velocity[axis][n] = g[axis] - d[axis] * kept;
     }
   }
@@ -119,20 +81,20 @@ class BlockStep {
         dt_(dt),
         drag_(settings.drag * settings.radius * settings.radius),
         kept_(keptDifference(settings, dt)),
-        corner_(gas.openShare.u.origin - Vec3d(0, .5, .5) * gas.openShare.u.cellSize),
-        inverse_(1 / gas.openShare.u.cellSize) {}
+        way_(gas) {}
 
   void run(std::int64_t first, int count, std::uint8_t* gone) {
-    const std::span<const Vec3d> places(p_.position.data() + first, static_cast<std::size_t>(count));
-    for (int axis = 0; axis < 3; ++axis) interpolateMany(gas_.velocity.component(axis), places, block_.wind[axis]);
-    load(first, count);
+    runWide([&] { load(first, count); });
+    for (int axis = 0; axis < 3; ++axis)
+      interpolateMany(gas_.velocity.component(axis), block_.place, count, block_.wind[axis]);
     runWide([&] {
       dragBlock(block_, count, dt_);
-      compareCells(places.data(), count);
+      way_.cellsOf(block_.place, count, block_.from);
+      way_.cellsOf(block_.goal, count, block_.to);
     });
-    for (int n = 0; n < count; ++n) gone[n] = !move(first + n, n);
-    interpolateMany(gas_.temperature, places, block_.around);
-    runWide([&] { heat(p_.temperature.data() + first, count); });
+    for (int n = 0; n < count; ++n) gone[n] = !way_.move(block_.from, block_.to, n, block_.place, block_.goal);
+    interpolateMany(gas_.temperature, block_.goal, count, block_.around);
+    runWide([&] { store(first, count); });
   }
 
  private:
@@ -144,44 +106,35 @@ class BlockStep {
 
   void load(std::int64_t first, int count) {
     constexpr double massless = -1;
+    const Vec3d *place = p_.position.data() + first, *velocity = p_.velocity.data() + first;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int n = 0; n < count; ++n) {
+        block_.place.along[axis][n] = place[n][axis];
+        block_.velocity[axis][n] = velocity[n][axis];
+      }
+    const double* mass = p_.mass.data() + first;
+    const ParticleKind* kind = p_.kind.data() + first;
     for (int n = 0; n < count; ++n) {
-      const std::int64_t at = first + n;
-      for (int axis = 0; axis < 3; ++axis) block_.velocity[axis][n] = p_.velocity[at][axis];
-      const double threshold =
-          p_.kind[at] == ParticleKind::fuel ? settings_.fuelMassThreshold : settings_.sootMassThreshold;
-      block_.resistance[n] = p_.mass[at] < threshold ? massless : drag_ / p_.mass[at];
+      const double least = kind[n] == ParticleKind::fuel ? settings_.fuelMassThreshold : settings_.sootMassThreshold;
+      block_.resistance[n] = mass[n] < least ? massless : drag_ / mass[n];
     }
   }
 
-  void compareCells(const Vec3d* places, int count) {
-    std::fill_n(block_.sameCell, count, std::uint8_t{1});
-    for (int axis = 0; axis < 3; ++axis)
-      for (int n = 0; n < count; ++n) {
-        const double from = (places[n][axis] - corner_[axis]) * inverse_;
-        const double to = (places[n][axis] + block_.moved[axis][n] - corner_[axis]) * inverse_;
-        block_.sameCell[n] &= static_cast<std::uint8_t>(std::floor(from) == std::floor(to));
-      }
-  }
-
-  /// False when the particle leaves the box.
-  bool move(std::int64_t at, int n) {
-    p_.velocity[at] = {block_.velocity[0][n], block_.velocity[1][n], block_.velocity[2][n]};
-    const Vec3d goal = p_.position[at] + Vec3d(block_.moved[0][n], block_.moved[1][n], block_.moved[2][n]);
-    if (!block_.sameCell[n]) return moveThrough(gas_, p_.position[at], goal, p_.position[at]);
-    p_.position[at] = goal;
-    return true;
-  }
-
-  void heat(double* temperature, int count) const {
-    for (int n = 0; n < count; ++n) temperature[n] = block_.around[n] + (temperature[n] - block_.around[n]) * kept_;
+  void store(std::int64_t first, int count) {
+    Vec3d *place = p_.position.data() + first, *velocity = p_.velocity.data() + first;
+    double* temperature = p_.temperature.data() + first;
+    for (int n = 0; n < count; ++n) {
+      place[n] = {block_.goal.along[0][n], block_.goal.along[1][n], block_.goal.along[2][n]};
+      velocity[n] = {block_.velocity[0][n], block_.velocity[1][n], block_.velocity[2][n]};
+      temperature[n] = block_.around[n] + (temperature[n] - block_.around[n]) * kept_;
+    }
   }
 
   ParticleSet& p_;
   const GasAround& gas_;
   const BurnSettings& settings_;
   double dt_, drag_, kept_;
-  Vec3d corner_;
-  double inverse_;
+  WayThroughCells way_;
   Block block_;
 };
 }  // namespace

@@ -1,0 +1,30 @@
+// A separable filter over a field that is made layer by layer, sparse where nothing lies: heat of burning particles
+// (one channel), mass and colour for pictures (four).
+#pragma once
+
+#include <functional>
+
+#include "base/math.h"
+#include "grid/layer_rows.h"
+#include "grid/symmetric_filter.h"
+
+namespace brisance {
+
+/// A field of `channels` values per cell, side by side, blurred along all axes. It is made in strips of neighbouring
+/// rows of all layers, one layer after the other, some rows in two strips, and handed out row by row; what lies in
+/// between fits a cache.
+struct BlurTask {
+  Vec3i size;
+  int channels = 1;
+  SymmetricFilter filter;
+  /// Adds to the given rows, or those of them that the field has, of layer k (near) what completes them, and if it
+  /// likes to those of layer k + 1 (far). Called for k = 0, 1, ... in turn. A row more on either side is there to be
+  /// written, and not used.
+  std::function<void(const CellSpan& rows, int k, LayerRows& near, LayerRows& far)> fill;
+  /// Takes row (j, k): cells outside `span` are zero. Called once for every row.
+  std::function<void(int j, int k, const CellSpan& span, const float* blurred)> finish;
+};
+/// The callbacks come from several threads at once, each for rows of its own.
+void blurSeparably(const BlurTask& task);
+
+}  // namespace brisance

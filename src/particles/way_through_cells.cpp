@@ -1,0 +1,66 @@
+#include "particles/way_through_cells.h"
+
+#include <cmath>
+
+namespace brisance {
+
+WayThroughCells::WayThroughCells(const GasAround& gas)
+    : openShare_(gas.openShare),
+      periodic_(gas.periodic),
+      cells_(openShare_.cells()),
+      corner_(openShare_.u.origin - Vec3d(0, .5, .5) * openShare_.u.cellSize),
+      cellSize_(openShare_.u.cellSize),
+      perCell_(1 / cellSize_) {}
+
+/// The usual way: at most one cell along each axis, inside the box, with nothing between.
+bool WayThroughCells::toFreeNeighbour(const CellBlock& from, const CellBlock& to, int n) const {
+  int cell[3] = {from.along[0][n], from.along[1][n], from.along[2][n]};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int end = to.along[axis][n], step = end - cell[axis];
+    if (end < 0 || end >= cells_[axis] || step < -1 || step > 1) return false;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const int end = to.along[axis][n];
+    if (end == cell[axis]) continue;
+    int upper[3] = {cell[0], cell[1], cell[2]};
+    upper[axis] = std::max(end, cell[axis]);
+    if (openShare_.component(axis)(upper[0], upper[1], upper[2]) == 0) return false;
+    cell[axis] = end;
+  }
+  return true;
+}
+
+bool WayThroughCells::search(int n, const PlaceBlock& place, PlaceBlock& goal) const {
+  constexpr double justShort = 1e-6;  // of a cell
+  double p[3];
+  for (int axis = 0; axis < 3; ++axis) p[axis] = (place.along[axis][n] - corner_[axis]) * perCell_;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Grid3<float>& open = openShare_.component(axis);
+    int cell[3] = {static_cast<int>(p[0]), static_cast<int>(p[1]), static_cast<int>(p[2])};
+    double end = (goal.along[axis][n] - corner_[axis]) * perCell_;
+    const bool forward = end > p[axis];
+    while (forward ? cell[axis] + 1 <= end : cell[axis] > end) {
+      const int face = cell[axis] + (forward ? 1 : 0);
+      int at[3] = {cell[0], cell[1], cell[2]};
+      at[axis] = face;
+      if (open(at[0], at[1], at[2]) == 0) {
+        end = face + (forward ? -justShort : justShort);
+        break;
+      }
+      cell[axis] += forward ? 1 : -1;
+      if (cell[axis] >= 0 && cell[axis] < cells_[axis]) continue;
+      if (!periodic_[axis]) return false;
+      const int period = forward ? -cells_[axis] : cells_[axis];
+      cell[axis] += period;
+      end += period;
+    }
+    p[axis] = end;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    goal.along[axis][n] = corner_[axis] + p[axis] * cellSize_;
+    if (!(p[axis] >= 0 && p[axis] < cells_[axis])) return false;
+  }
+  return true;
+}
+
+}  // namespace brisance
