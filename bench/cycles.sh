@@ -61,11 +61,15 @@ noise() {
     echo "$1 $2 $rmse $shown" >>"$folder/table"
   }
 }
-# sooner COLUMN: how many times sooner the quickest picture with no more noise than Cycles' is there.
+# sooner COLUMN: how many times sooner the quickest picture with no more noise than Cycles' is there; and one with as much
+# noise would be, if noise falls with the square root of time.
 sooner() {
   awk -v c="$1" '/^cycles/ { most = $c; theirs = $2 } { noise[$1] = $c; seconds[$1] = $2 }
-    END { for (name in noise) if (name ~ /^path/ && noise[name] <= most && (!best || seconds[name] < best)) best = seconds[name]
-          if (best) printf "%.1f times sooner (%s s)\n", theirs / best, best; else print "not reached" }' "$folder/table"
+    END { for (name in noise) if (name ~ /^path/ && noise[name] <= most && (!best || seconds[name] < seconds[best])) best = name
+          if (!best) { print "not reached"; exit }
+          as_much = seconds[best] * (noise[best] / most) ^ 2
+          printf "%.1f times sooner (%s s); with as much noise %.1f times\n", theirs / seconds[best], seconds[best], theirs / as_much
+    }' "$folder/table"
 }
 
 echo "Whitted's rays against Cycles at 4 samples, $size"

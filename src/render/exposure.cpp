@@ -205,8 +205,8 @@ class Exposure {
 
 Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise, Sampling sampling) {
   Exposure exposure(rays, width, height, follow, noise);
-  const int drawn = rays.perPixel() / 4 / 2 * 2;  // even, so that both halves have as many
-  return sampling == Sampling::byNoise && drawn >= 2 ? exposure.byNoise(drawn) : exposure.even();
+  const int drawn = std::max(rays.perPixel() / 4 / 2 * 2, 2);  // even, so that both halves have as many
+  return sampling == Sampling::byNoise && drawn < rays.perPixel() ? exposure.byNoise(drawn) : exposure.even();
 }
 
 }  // namespace brisance

@@ -8,7 +8,8 @@
 namespace brisance {
 namespace {
 
-/// Guides and what no chance decides cost little beside the light: they have more samples, and no noise is seen of them.
+/// Guides and what no chance decides cost little beside the light: they have more samples, and no noise is seen of
+/// them.
 constexpr int guideSamples = 32;
 constexpr float nowhere = 1e10f;  // [m] as Blender has it: infinity survives no filter of a compositor
 

@@ -127,7 +127,7 @@ struct IntegratorKeys {
         path.splits);
     visit(v,
           {"adaptive", "", anyValue,
-           "more samples where light is noisier, in the mean as many; from samples = 3 on, not with denoise"},
+           "more samples where light is noisier, in the mean as many; from samples = 2 on, not with denoise"},
           path.adaptive);
   }
 };

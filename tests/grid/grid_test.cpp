@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "grid/interpolate.h"
 #include "grid/brick_source.h"
+#include "grid/interpolate.h"
 
 namespace brisance {
 namespace {

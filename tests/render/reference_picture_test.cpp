@@ -44,7 +44,7 @@ std::pair<Frame, RenderSettings> everything() {
   metal.specular = {0.7f, 0.6f, 0.5f};
   settings.materials = {
       {"white", whitePaint()}, {"glass", clearGlass()}, {"lamp", lamp({4, 4, 3})}, {"wood", wood}, {"metal", metal}};
-  settings.integrator = PathIntegrator{5, 4, 2};
+  settings.integrator = PathIntegrator{5, 0.01, 2};
   settings.volume.drawn = true;
   settings.volume.cells = {32, 32, 32};
   settings.volume.corner = {-1, -1, -1};
@@ -57,11 +57,11 @@ std::pair<Frame, RenderSettings> everything() {
   return {frame, settings};
 }
 
-constexpr int pictures = 16;
+constexpr int pictures = 16, samples = 4, storedSamples = 16;  // n of n x n
 
-Measured measured(int samples, std::uint64_t firstSeed) {
+Measured measured(int perSide, std::uint64_t firstSeed) {
   auto [frame, settings] = everything();
-  settings.samples = samples;
+  settings.samples = perSide;
   std::vector<Vec3d> sum(static_cast<std::size_t>(settings.width) * settings.height), squares = sum;
   for (int n = 0; n < pictures; ++n) {
     settings.seed = firstSeed + n;
@@ -92,13 +92,13 @@ std::filesystem::path stored(const std::string& what) {
 // pixel far off, or all off by a quarter of a deviation, are found.
 TEST(ReferencePicture, DiffersFromTheStoredOneByNoMoreThanChance) {
   if (std::getenv("BRISANCE_WRITE_REFERENCE")) {
-    const Measured reference = measured(16, 1000);
+    const Measured reference = measured(storedSamples, 1000);
     writeDurably(stored("mean"), encodeExr(reference.mean));
     writeDurably(stored("deviation"), encodeExr(reference.deviation));
     GTEST_SKIP() << "written";
   }
   constexpr double halfStep = 0x1p-11;  // relative, of what the file holds
-  const Measured now = measured(4, 1);
+  const Measured now = measured(samples, 1);
   const Image mean = decodeExr(readFile(stored("mean")), "mean"),
               deviation = decodeExr(readFile(stored("deviation")), "deviation");
   ASSERT_EQ(mean.pixels.size(), now.mean.pixels.size());
@@ -106,8 +106,10 @@ TEST(ReferencePicture, DiffersFromTheStoredOneByNoMoreThanChance) {
   for (std::size_t p = 0; p < mean.pixels.size(); ++p)
     for (int channel = 0; channel < 3; ++channel) {
       const double rounding = halfStep * mean.pixels[p][channel];
-      const double expected = std::sqrt(std::pow(now.deviation.pixels[p][channel], 2) +
-                                        std::pow(deviation.pixels[p][channel], 2) + rounding * rounding);
+      const double known = deviation.pixels[p][channel];
+      // The stored picture has seen what few samples may all have missed, as the tip of a wall before the sky.
+      const double own = std::max<double>(now.deviation.pixels[p][channel], known * storedSamples / samples);
+      const double expected = std::sqrt(own * own + known * known + rounding * rounding);
       const double z = (now.mean.pixels[p][channel] - mean.pixels[p][channel]) / expected;
       sum += z;
       squares += z * z;
