@@ -84,11 +84,18 @@ echo "All ways of light, $size"
 path="--set render.integrator.type=path --set render.integrator.max_bounces=$bounces
   --set render.volume.smoke_colour=[0,0,0] --set materials.glass.absorption=[0,0,0] --set render.seed="
 rm -f "$folder/table"
-for n in 2 3 4; do
-  first=$(draw "path_${n}x${n}_0" --samples $n ${path}1)
-  draw "path_${n}x${n}_1" --samples $n ${path}2 >/dev/null
-  noise "path_${n}x${n}" "$first"
-done
+# paths ROW N OPTIONS...: two pictures path_ROW of N x N samples, and their noise.
+paths() {
+  row=path_$1
+  n=$2
+  shift 2
+  first=$(draw "${row}_0" --samples "$n" ${path}1 "$@")
+  draw "${row}_1" --samples "$n" ${path}2 "$@" >/dev/null
+  noise "$row" "$first"
+}
+paths 2x2_rough 2 --set render.integrator.splits=0 --set render.integrator.faint=0.05
+paths 2x2 2
+paths 3x3 3
 theirs=$(cycles "cycles_$samples" "$samples" 2 | head -1)
 noise "cycles_$samples" "$theirs"
 echo "  the noise of Cycles: $(sooner 3)"
