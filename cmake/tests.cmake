@@ -15,7 +15,7 @@ function(brisance_tests folder)
   target_link_libraries(test_${folder} PRIVATE ${ARG_LIBRARIES} GTest::gtest_main)
   target_compile_definitions(test_${folder} PRIVATE
     BRISANCE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" BRISANCE_BINARY="${CMAKE_BINARY_DIR}/bin/brisance")
-  gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 1800)  # those of --long draw films
 endfunction()
 
 foreach(folder base grid mesh particles rigid fracture frame simulation render scene view)
