@@ -22,37 +22,31 @@ struct Binned {
     return {items.data() + start[number], items.data() + start[number + 1]};
   }
 
-  AlignedVector<Item> grouped;             ///< in order of groups of neighbouring bins
-  std::vector<std::int32_t> binOf;         ///< of what comes n-th
+  AlignedVector<Item> grouped;             ///< block after block of what came, each in order of groups of bins
   std::vector<std::int32_t> groupedBinOf;  ///< of the grouped items
-  std::vector<std::uint32_t> next;         ///< per block of items and group: the place of the next item
-  std::vector<std::uint32_t> groupStart;
+  std::vector<std::uint32_t> pieceStart;   ///< per block and group: the first grouped item, and the block's end
+  std::vector<std::uint32_t> groupStart;   ///< first item of each group, and the end of the last
 };
 
 constexpr int sortRun = 256;  ///< items that are made at once
 
 namespace detail {
-/// Few enough that their counts stay small beside the items; depends on the items' number alone.
+/// Few enough items that the caches hold a block of them while it is sorted; depends on the items' number alone.
 struct SortBlocks {
-  static constexpr std::int64_t smallest = 1 << 14, most = 16;
-  std::int64_t number, size;
-  explicit SortBlocks(std::int64_t items)
-      : number(std::clamp<std::int64_t>(items / smallest, 1, most)), size((items + number - 1) / number) {}
+  static constexpr std::int64_t size = 1 << 14;
+  std::int64_t items, number;
+  explicit SortBlocks(std::int64_t items_) : items(items_), number((items + size - 1) / size) {}
 
-  /// Calls visit(block, first, end) for runs of at most sortRun items, a block's on one thread and in their order.
+  /// Calls visit(first, end) for runs of at most sortRun items of a block, in their order.
   template <class Visit>
-  void forRuns(std::int64_t items, const Visit& visit) const {
-    parallelFor(0, number, 1, [&](std::int64_t firstBlock, std::int64_t lastBlock) {
-      for (std::int64_t block = firstBlock; block < lastBlock; ++block) {
-        const std::int64_t end = std::min(items, (block + 1) * size);
-        for (std::int64_t n = block * size; n < end; n += sortRun) visit(block, n, std::min(end, n + sortRun));
-      }
-    });
+  void forRuns(std::int64_t block, const Visit& visit) const {
+    const std::int64_t end = std::min(items, (block + 1) * size);
+    for (std::int64_t n = block * size; n < end; n += sortRun) visit(n, std::min(end, n + sortRun));
   }
 };
 
-/// Groups of 2^shift neighbouring bins: so few that the caches hold a line of each while items are spread over them,
-/// so many that they hold a group while it is sorted.
+/// Groups of 2^shift neighbouring bins: so few that a block has some items for each, so many that the caches hold a
+/// group while it is sorted.
 struct BinGroups {
   static constexpr std::int64_t most = 512;
   int shift = 0;
@@ -63,78 +57,100 @@ struct BinGroups {
   }
 };
 
-/// From counts per block and group to the place of each block's first item in each group.
-inline void placeBlocks(std::int64_t blocks, std::int64_t groups, std::vector<std::uint32_t>& next,
-                        std::vector<std::uint32_t>& start) {
-  start.resize(static_cast<std::size_t>(groups) + 1);
-  std::uint32_t at = 0;
-  for (std::int64_t group = 0; group < groups; ++group) {
+/// Groups the items of a block, within a group in their order.
+template <class Item, class BinsOf, class MakeItems>
+void groupBlock(const SortBlocks& blocks, std::int64_t block, const BinGroups& groups, const BinsOf& binsOf,
+                const MakeItems& makeItems, Binned<Item>& result) {
+  const std::int64_t begin = block * SortBlocks::size;
+  std::array<std::int32_t, SortBlocks::size> binOf;
+  std::array<std::uint32_t, BinGroups::most> next{};
+  blocks.forRuns(block, [&](std::int64_t first, std::int64_t end) {
+    binsOf(first, end, &binOf[first - begin]);
+    for (std::int64_t n = first - begin; n < end - begin; ++n)
+      if (binOf[n] >= 0) ++next[binOf[n] >> groups.shift];
+  });
+  std::uint32_t* start = &result.pieceStart[block * (groups.number + 1)];
+  std::uint32_t at = static_cast<std::uint32_t>(begin);
+  for (std::int64_t group = 0; group < groups.number; ++group) {
     start[group] = at;
-    for (std::int64_t block = 0; block < blocks; ++block) {
-      const std::uint32_t count = next[block * groups + group];
-      next[block * groups + group] = at;
-      at += count;
-    }
+    at += next[group];
+    next[group] = start[group];
   }
-  start[groups] = at;
+  start[groups.number] = at;
+  blocks.forRuns(block, [&](std::int64_t first, std::int64_t end) {
+    std::array<Item, sortRun> items;
+    makeItems(first, end, items.data());
+    for (std::int64_t n = first; n < end; ++n) {
+      const std::int32_t bin = binOf[n - begin];
+      if (bin < 0) continue;
+      const std::uint32_t to = next[bin >> groups.shift]++;
+      result.grouped[to] = items[n - first];
+      result.groupedBinOf[to] = bin;
+    }
+  });
 }
 
-/// Sorts the grouped items [first, end) by their bins, `bins` of them from firstBin on.
+/// Where the groups lie that the blocks' pieces make.
 template <class Item>
-void sortGroup(Binned<Item>& sorted, std::uint32_t first, std::uint32_t end, std::int64_t firstBin, std::int64_t bins) {
+void placeGroups(std::int64_t blocks, std::int64_t groups, Binned<Item>& result) {
+  result.groupStart.assign(static_cast<std::size_t>(groups) + 1, 0);
+  for (std::int64_t block = 0; block < blocks; ++block) {
+    const std::uint32_t* start = &result.pieceStart[block * (groups + 1)];
+    for (std::int64_t group = 0; group < groups; ++group)
+      result.groupStart[group + 1] += start[group + 1] - start[group];
+  }
+  for (std::int64_t group = 0; group < groups; ++group) result.groupStart[group + 1] += result.groupStart[group];
+}
+
+/// Sorts the items of a group, which lie in a piece of each block, by their bins, `bins` of them from firstBin on.
+template <class Item>
+void sortGroup(Binned<Item>& sorted, std::int64_t blocks, std::int64_t group, std::int64_t firstBin,
+               std::int64_t bins) {
+  const std::int64_t groups = static_cast<std::int64_t>(sorted.groupStart.size()) - 1;
+  const auto forItems = [&](const auto& visit) {
+    for (std::int64_t block = 0; block < blocks; ++block) {
+      const std::uint32_t* piece = &sorted.pieceStart[block * (groups + 1) + group];
+      for (std::uint32_t n = piece[0]; n < piece[1]; ++n) visit(n, sorted.groupedBinOf[n] - firstBin);
+    }
+  };
   std::vector<std::uint32_t> next(bins, 0);
-  for (std::uint32_t n = first; n < end; ++n) ++next[sorted.groupedBinOf[n] - firstBin];
-  std::uint32_t at = first;
+  forItems([&](std::uint32_t, std::int64_t bin) { ++next[bin]; });
+  std::uint32_t at = sorted.groupStart[group];
   for (std::int64_t bin = 0; bin < bins; ++bin) {
     sorted.start[firstBin + bin] = at;
     at += next[bin];
     next[bin] = sorted.start[firstBin + bin];
   }
-  for (std::uint32_t n = first; n < end; ++n)
-    sorted.items[next[sorted.groupedBinOf[n] - firstBin]++] = sorted.grouped[n];
+  forItems([&](std::uint32_t n, std::int64_t bin) { sorted.items[next[bin]++] = sorted.grouped[n]; });
 }
 }  // namespace detail
 
 /// Sorts items n = 0 .. count - 1, fewer than 2^32: binsOf(first, end, bins) tells the bins of a run of them, each
 /// below `bins` or -1 to leave it out; makeItems(first, end, items) makes them, with whatever for those left out. Both
-/// are called from several threads, once for each run. The items are spread over groups of bins and each group is
-/// sorted apart: spread over all bins at once, each would come to a line of memory of its own.
+/// are called from several threads, once for each run. Blocks of items are sorted into groups of bins, and each group,
+/// gathered from all blocks, into its bins: items spread over all bins at once would each come to a line of memory of
+/// its own.
 template <class Item, class BinsOf, class MakeItems>
 void sortIntoBins(std::int64_t count, std::int64_t bins, const BinsOf& binsOf, const MakeItems& makeItems,
                   Binned<Item>& result) {
   const detail::SortBlocks blocks(count);
   const detail::BinGroups groups(bins);
-  result.binOf.resize(static_cast<std::size_t>(count));
-  result.next.assign(static_cast<std::size_t>(blocks.number * groups.number), 0);
-  blocks.forRuns(count, [&](std::int64_t block, std::int64_t first, std::int64_t end) {
-    std::uint32_t* counts = result.next.data() + block * groups.number;
-    binsOf(first, end, result.binOf.data() + first);
-    for (std::int64_t n = first; n < end; ++n)
-      if (result.binOf[n] >= 0) ++counts[result.binOf[n] >> groups.shift];
+  result.pieceStart.resize(static_cast<std::size_t>(blocks.number * (groups.number + 1)));
+  result.grouped.resize(static_cast<std::size_t>(count));
+  result.groupedBinOf.resize(static_cast<std::size_t>(count));
+  parallelFor(0, blocks.number, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t block = first; block < last; ++block)
+      detail::groupBlock(blocks, block, groups, binsOf, makeItems, result);
   });
-  detail::placeBlocks(blocks.number, groups.number, result.next, result.groupStart);
+  detail::placeGroups(blocks.number, groups.number, result);
   const std::uint32_t kept = result.groupStart.back();
-  result.grouped.resize(kept);
-  result.groupedBinOf.resize(kept);
-  blocks.forRuns(count, [&](std::int64_t block, std::int64_t first, std::int64_t end) {
-    std::uint32_t* next = result.next.data() + block * groups.number;
-    std::array<Item, sortRun> items;
-    makeItems(first, end, items.data());
-    for (std::int64_t n = first; n < end; ++n) {
-      const std::int32_t bin = result.binOf[n];
-      if (bin < 0) continue;
-      const std::uint32_t at = next[bin >> groups.shift]++;
-      result.grouped[at] = items[n - first];
-      result.groupedBinOf[at] = bin;
-    }
-  });
   result.items.resize(kept);
   result.start.resize(static_cast<std::size_t>(bins) + 1);
   result.start[bins] = kept;
   parallelFor(0, groups.number, 1, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t group = first; group < last; ++group) {
       const std::int64_t firstBin = group << groups.shift;
-      detail::sortGroup(result, result.groupStart[group], result.groupStart[group + 1], firstBin,
+      detail::sortGroup(result, blocks.number, group, firstBin,
                         std::min(bins - firstBin, std::int64_t{1} << groups.shift));
     }
   });

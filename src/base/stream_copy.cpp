@@ -3,7 +3,6 @@
 #include <immintrin.h>
 
 #include <algorithm>
-#include <bit>
 
 #include "base/vector_path.h"
 
@@ -11,11 +10,6 @@ namespace brisance {
 
 namespace {
 constexpr std::int64_t lineFloats = 16;
-
-void storeOnes(float* to, const float* from, std::int64_t count) {
-  for (std::int64_t n = 0; n < count; ++n)
-    _mm_stream_si32(reinterpret_cast<int*>(to + n), std::bit_cast<std::int32_t>(from[n]));
-}
 
 [[gnu::target("avx512f")]] void storeWideLines(float* to, const float* from, std::int64_t lines) {
   for (std::int64_t n = 0; n < lines; ++n)
@@ -27,7 +21,7 @@ void storeLines(float* to, const float* from, std::int64_t lines) {
   for (std::int64_t n = 0; n < lines * lineFloats; n += vectorFloats) _mm_stream_ps(to + n, _mm_loadu_ps(from + n));
 }
 
-/// Whole lines at once where they are whole, since a line that is written in parts is fetched after all.
+/// What is missing of a line. Lines that are written in parts take the way through the caches, where the parts meet.
 std::int64_t untilLine(const float* to) {
   const std::uintptr_t beyond = reinterpret_cast<std::uintptr_t>(to) / sizeof(float) % lineFloats;
   return beyond == 0 ? 0 : lineFloats - static_cast<std::int64_t>(beyond);
@@ -37,9 +31,9 @@ std::int64_t untilLine(const float* to) {
 void streamCopy(float* to, const float* from, std::int64_t count) {
   const std::int64_t head = std::min(untilLine(to), count), lines = (count - head) / lineFloats;
   const std::int64_t done = head + lines * lineFloats;
-  storeOnes(to, from, head);
+  std::copy(from, from + head, to);
   storeLines(to + head, from + head, lines);
-  storeOnes(to + done, from + done, count - done);
+  std::copy(from + done, from + count, to + done);
 }
 
 void streamZeros(float* to, std::int64_t count) {

@@ -1,5 +1,6 @@
 // Stores past the caches, for results too large to be still there when they are read: an ordinary store may fetch the
-// line first, so that each byte written crosses the memory's bus twice, and it throws other lines out.
+// line first, so that each byte written crosses the memory's bus twice, and it throws other lines out. Lines that
+// are not written as a whole are stored as usual.
 #pragma once
 
 #include <cstdint>

@@ -142,64 +142,87 @@ typedef float Vector __attribute__((vector_size(16 * sizeof(float)), aligned(siz
 
 /// Density and colour of some cells of a row, on the way from the blurred sums to memory.
 struct FinishedCells {
-  static constexpr int most = 512, block = 16;
-  float density[most], perMass[most], colour[3 * most + 4];
+  static constexpr int most = 128, block = 16;
+  alignas(64) float density[most];
+  alignas(64) float colour[3 * most];
 
   /// Of the first `count` cells of `sums`, and of more up to a whole block.
   void make(const float* sums, int count, float perVolume) {
-    const int rounded = (count + block - 1) / block * block;
-    for (int n = 0; n < rounded; ++n) density[n] = sums[channels * n];
-    for (int n = 0; n < rounded; ++n) perMass[n] = density[n] > 0 ? 1 / density[n] : 0;
-    for (int n = 0; n < rounded; ++n) density[n] *= perVolume;
-    for (int n = 0; n < rounded; n += block) {
-      const Vector inverse = *reinterpret_cast<const Vector*>(perMass + n);
-      meanColours<0>(sums + channels * n, inverse, colour + 3 * n);
-      meanColours<4>(sums + channels * n, inverse, colour + 3 * n);
-      meanColours<8>(sums + channels * n, inverse, colour + 3 * n);
-      meanColours<12>(sums + channels * n, inverse, colour + 3 * n);
+    for (int n = 0; n < count; n += block) {
+      Vector cells[4];  // four cells each
+      for (int v = 0; v < 4; ++v) cells[v] = *reinterpret_cast<const Vector*>(sums + channels * n + block * v);
+      Vector mass;
+      firstOfFours(cells, mass);
+      *reinterpret_cast<Vector*>(density + n) = mass * perVolume;
+      const Vector none{}, perMass = mass > none ? (none + 1) / mass : none;
+      meanColours<0>(perMass, cells[0]);
+      meanColours<4>(perMass, cells[1]);
+      meanColours<8>(perMass, cells[2]);
+      meanColours<12>(perMass, cells[3]);
+      store(cells, colour + 3 * n);
     }
   }
 
  private:
-  /// Of four cells of sixteen; the four numbers written beyond theirs those of the next replace.
+  static void firstOfFours(const Vector (&cells)[4], Vector& mass) {
+    const Vector low = __builtin_shufflevector(cells[0], cells[1], 0, 4, 8, 12, 16, 20, 24, 28, -1, -1, -1, -1, -1, -1,
+                                               -1, -1),
+                 high = __builtin_shufflevector(cells[2], cells[3], 0, 4, 8, 12, 16, 20, 24, 28, -1, -1, -1, -1, -1, -1,
+                                                -1, -1);
+    mass = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
+  }
+  /// Of four cells of sixteen, from the n-th on: three numbers each, side by side.
   template <int n>
-  static void meanColours(const float* sums, const Vector& perMass, float* colours) {
-    const Vector perMassOf = __builtin_shufflevector(perMass, perMass, n, n, n, n, n + 1, n + 1, n + 1, n + 1, n + 2,
-                                                     n + 2, n + 2, n + 2, n + 3, n + 3, n + 3, n + 3);
-    const Vector mean = *reinterpret_cast<const Vector*>(sums + channels * n) * perMassOf;
-    *reinterpret_cast<Vector*>(colours + 3 * n) =
-        __builtin_shufflevector(mean, mean, 1, 2, 3, 5, 6, 7, 9, 10, 11, 13, 14, 15, -1, -1, -1, -1);
+  static void meanColours(const Vector& perMass, Vector& cells) {
+    cells *= __builtin_shufflevector(perMass, perMass, n, n, n, n, n + 1, n + 1, n + 1, n + 1, n + 2, n + 2, n + 2,
+                                     n + 2, n + 3, n + 3, n + 3, n + 3);
+    cells = __builtin_shufflevector(cells, cells, 1, 2, 3, 5, 6, 7, 9, 10, 11, 13, 14, 15, -1, -1, -1, -1);
+  }
+  /// Four times twelve numbers.
+  static void store(const Vector (&cells)[4], float* colours) {
+    Vector* lines = reinterpret_cast<Vector*>(colours);
+    lines[0] = __builtin_shufflevector(cells[0], cells[1], 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19);
+    lines[1] = __builtin_shufflevector(cells[1], cells[2], 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 20, 21, 22, 23);
+    lines[2] =
+        __builtin_shufflevector(cells[2], cells[3], 8, 9, 10, 11, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27);
   }
 };
 
-/// Density and colour of one row from its blurred sums; none outside the span.
-void finishRow(const CellSpan& span, const float* sums, float perVolume, int cells, float* density, float* colour) {
-  const auto clear = [&](int first, int end) {
-    streamZeros(density + first, end - first);
-    streamZeros(colour + 3 * first, 3 * (end - first));
-  };
-  clear(0, span.first);
-  FinishedCells some;
-  for (int i = span.first; i < span.end; i += FinishedCells::most) {
-    const int count = std::min(FinishedCells::most, span.end - i);
-    some.make(sums + channels * i, count, perVolume);
-    streamCopy(density + i, some.density, count);
-    streamCopy(colour + 3 * i, some.colour, 3 * count);
+/// Where the rows of the volume lie; all of them start at whole numbers of cells from the start of a line of memory.
+struct VolumeRows {
+  ParticleVolume& volume;
+  float perVolume;
+
+  /// Takes what of the row lies in lines of memory that end before the piece's end, or with the row.
+  void finish(int j, int k, const CellSpan& piece, const CellSpan& filled, const float* sums) const {
+    const std::int64_t row = volume.density.index(0, j, k);
+    const auto wholeLines = [&](int cell) {
+      const int beyond = static_cast<int>((row + cell) % FinishedCells::block);
+      return cell == volume.density.size.x ? cell : std::max(0, cell - beyond);
+    };
+    const int first = wholeLines(piece.first), count = wholeLines(piece.end) - first;
+    float* density = volume.density.values.data() + row + first;
+    float* colour = &volume.colour.values.data()[row + first].x;
+    if (filled.end <= first || filled.first >= first + count) {
+      streamZeros(density, count);
+      streamZeros(colour, 3 * count);
+    } else {
+      FinishedCells some;
+      runWide([&] { some.make(sums + channels * first, count, perVolume); });
+      streamCopy(density, some.density, count);
+      streamCopy(colour, some.colour, 3 * count);
+    }
+    if (piece.end == volume.density.size.x) endStreaming();
   }
-  clear(span.end, cells);
-}
+};
 
 BlurTask volumeBlur(const SymmetricFilter& filter, ParticleVolume& volume) {
   const Vec3i size = volume.density.size;
   BlurTask task{.size = size, .channels = channels, .filter = filter, .fill = {}, .finish = {}};
   const double cell = volume.density.cellSize;
   const float perVolume = static_cast<float>(1 / (cell * cell * cell));
-  task.finish = [&volume, perVolume, cells = size.x](int j, int k, const CellSpan& span, const float* sums) {
-    float* density = &volume.density(0, j, k);
-    float* colour = &volume.colour(0, j, k).x;
-    runWide([&] { finishRow(span, sums, perVolume, cells, density, colour); });
-    endStreaming();
-  };
+  task.finish = [rows = VolumeRows{volume, perVolume}](int j, int k, const CellSpan& piece, const CellSpan& filled,
+                                                       const float* sums) { rows.finish(j, k, piece, filled, sums); };
   return task;
 }
 

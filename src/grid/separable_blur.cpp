@@ -1,15 +1,20 @@
 #include "grid/separable_blur.h"
 
+#include <array>
+
+#include "base/check.h"
 #include "base/parallel.h"
 #include "base/vector_path.h"
+#include "grid/blur_kernels.h"
 
 namespace brisance {
 
 namespace {
 
-constexpr int vectorFloats = 16;  // the widest vectors hold as many
-constexpr int blockVectors = 4;   // whose sums stay in registers
-constexpr int block = blockVectors * vectorFloats;
+using blur::rowsAtOnce, blur::vectorFloats, blur::Weights;
+
+constexpr int block = 4 * vectorFloats;  // what sums along a row are rounded to
+constexpr int pieceNumbers = 256;        // of a row, finished at once
 
 constexpr int roundUp(int count, int unit) { return (count + unit - 1) / unit * unit; }
 constexpr int roundDown(int count, int unit) { return count / unit * unit; }
@@ -17,42 +22,69 @@ constexpr int roundDown(int count, int unit) { return count / unit * unit; }
 /// Numbers of a row of cells and of one more, with room for whole blocks from any vector on.
 int rowWidth(const BlurTask& task) { return roundUp(task.channels * (task.size.x + 1), vectorFloats) + block; }
 
-/// Named as vectors, since the compiler would otherwise run along the filter, one cell at a time. Not for `auto`, which
-/// forgets that they need not be aligned.
-typedef float FloatVector __attribute__((vector_size(vectorFloats * sizeof(float)), aligned(sizeof(float)), may_alias));
+/// The numbers of some cells, from the start of a vector on.
+struct NumberSpan {
+  int first, end;
+  NumberSpan(const CellSpan& cells, int channels)
+      : first(roundDown(channels * cells.first, vectorFloats)), end(channels * cells.end) {}
+};
 
-/// Filtered sums over rows[-radius] .. rows[radius] of a block of numbers from `at` on.
-inline void sumBlock(const float* const* rows, const SymmetricFilter& filter, int at, float* sums) {
-  const auto vectors = [at](const float* row) { return reinterpret_cast<const FloatVector*>(row + at); };
-  FloatVector sum[blockVectors];
-  for (int v = 0; v < blockVectors; ++v) sum[v] = vectors(rows[0])[v] * filter(0);
-  for (int t = 1; t <= filter.radius(); ++t) {
-    const FloatVector *below = vectors(rows[-t]), *above = vectors(rows[t]);
-    for (int v = 0; v < blockVectors; ++v) sum[v] += (below[v] + above[v]) * filter(t);
-  }
-  for (int v = 0; v < blockVectors; ++v) reinterpret_cast<FloatVector*>(sums + at)[v] = sum[v];
-}
+using Rows = std::array<float*, rowsAtOnce>;
 
 /// Filtered sums along x, y or z of a span of cells, according to what rows are given; `sums` has room for whole
 /// blocks.
 class RowFilter {
  public:
-  explicit RowFilter(const BlurTask& task) : filter_(task.filter), channels_(task.channels), rows_(2 * radius() + 1) {}
+  explicit RowFilter(const BlurTask& task)
+      : radius_(task.filter.radius()), channels_(task.channels), rows_(2 * radius_ + rowsAtOnce) {
+    CHECK(channels_ == 1 || channels_ == 4, "channels {}", channels_);
+    for (int t = 0; t <= radius_; ++t) weights_.push_back(task.filter(t));
+  }
 
-  /// row(t) gives the row at a distance of -radius .. radius.
-  template <class Row>
-  void sum(const CellSpan& span, const Row& row, float* sums) {
-    for (int t = -radius(); t <= radius(); ++t) rows_[t + radius()] = row(t);
-    runWide([&] {
-      for (int at = roundDown(channels_ * span.first, vectorFloats); at < channels_ * span.end; at += block)
-        sumBlock(rows_.data() + radius(), filter_, at, sums);
+  /// Along a row, around which there are zeros.
+  void sumAlong(const CellSpan& cells, const float* row, float* sums) const {
+    const NumberSpan span(cells, channels_);
+    forRadius([&](const auto& weights) {
+      runWide([&] {
+        if (channels_ == 4)
+          blur::sumAlong<4>(row, weights, span.first, span.end, sums);
+        else
+          blur::sumAlong<1>(row, weights, span.first, span.end, sums);
+      });
     });
   }
-  int radius() const { return filter_.radius(); }
+  /// For sums of four neighbouring rows: row(t) gives that at a distance of -radius .. radius + 3 from the first.
+  template <class Row>
+  void useRows(const Row& row) {
+    for (int t = -radius_; t < radius_ + rowsAtOnce; ++t) rows_[t + radius_] = row(t);
+  }
+  void sumRows(const CellSpan& cells, const Rows& sums) const {
+    const NumberSpan span(cells, channels_);
+    forRadius([&](const auto& weights) {
+      runWide([&] { blur::sumNeighbours(rows_.data() + radius_, weights, span.first, span.end, sums.data()); });
+    });
+  }
 
  private:
-  SymmetricFilter filter_;
-  int channels_;
+  template <class Visit>
+  void forRadius(const Visit& visit) const {
+    const float* weights = weights_.data();
+    switch (radius_) {
+      case 1:
+        return visit(Weights<1>{weights, radius_});
+      case 2:
+        return visit(Weights<2>{weights, radius_});
+      case 3:
+        return visit(Weights<3>{weights, radius_});
+      case 4:
+        return visit(Weights<4>{weights, radius_});
+      default:
+        return visit(Weights<0>{weights, radius_});
+    }
+  }
+
+  int radius_, channels_;
+  std::vector<float> weights_;
   std::vector<const float*> rows_;
 };
 
@@ -61,19 +93,26 @@ class PaddedLine {
  public:
   explicit PaddedLine(const BlurTask& task)
       : channels_(task.channels),
-        pad_(roundUp(task.channels * task.filter.radius(), vectorFloats)),
+        pad_(roundUp(task.channels * task.filter.radius() + 1, vectorFloats)),
         values_(static_cast<std::size_t>(rowWidth(task)) + 2 * pad_, 0.f) {}
   /// Where to write `span` of cells; others are zero.
   float* begin(const CellSpan& span) {
-    float* cells = data();
-    if (filled_.first < span.first || filled_.end > span.end)
-      std::fill(cells + channels_ * filled_.first, cells + channels_ * filled_.end, 0.f);
+    if (span.empty()) {
+      clear(filled_.first, filled_.end);
+    } else {
+      clear(filled_.first, std::min(filled_.end, span.first));
+      clear(std::max(filled_.first, span.end), filled_.end);
+    }
     filled_ = span;
-    return cells;
+    return data();
   }
   float* data() { return values_.data() + pad_; }
 
  private:
+  void clear(int first, int end) {
+    if (first < end) std::fill(data() + channels_ * first, data() + channels_ * end, 0.f);
+  }
+
   int channels_, pad_;
   CellSpan filled_;
   AlignedVector<float> values_;
@@ -82,7 +121,7 @@ class PaddedLine {
 /// One row of the last layers, as many as the filter reaches.
 class LayerRing {
  public:
-  explicit LayerRing(const BlurTask& task) : slots_(2 * task.filter.radius() + 1) {
+  explicit LayerRing(const BlurTask& task) : slots_(2 * task.filter.radius() + rowsAtOnce) {
     for (int n = 0; n < slots_; ++n) layers_.emplace_back(task);
   }
   /// Layer k in place of the oldest, to be written in `span`.
@@ -107,18 +146,18 @@ class LayerRing {
 };
 
 /// Blurs some neighbouring rows of all layers. Layer after layer is made, with as many rows beside the own ones as the
-/// filter reaches, and blurred along y and x; of the last layers the own rows are kept and blurred along z. So nothing
-/// but what is handed out leaves the cache, and rows near another strip are made twice.
+/// filter reaches, and blurred along y and x; of the last layers the own rows are kept and blurred along z, four layers
+/// at once. So nothing but what is handed out leaves the cache, and rows near another strip are made twice.
 class StripBlur {
  public:
   StripBlur(const BlurTask& task, int rows)
       : task_(task),
         radius_(task.filter.radius()),
-        near_(rows + 2 * radius_ + 2, task.channels, rowWidth(task)),
+        near_(roundUp(rows, rowsAtOnce) + 2 * radius_ + 2, task.channels, rowWidth(task)),
         far_(near_),
         filter_(task),
-        summed_(task),
-        blurred_(static_cast<std::size_t>(rowWidth(task))),
+        summed_(rowsAtOnce, PaddedLine(task)),
+        blurred_(rowsAtOnce, PaddedLine(task)),
         layers_(rows, LayerRing(task)) {}
 
   /// Rows first <= j < end, no more than the constructor was told.
@@ -127,10 +166,10 @@ class StripBlur {
       layer->clear();
       layer->numberFrom(first - radius_ - 1);
     }
-    for (int k = -radius_; k < task_.size.z + radius_; ++k) {
-      makeLayer(first, end, k);
-      if (k < radius_) continue;
-      for (int j = first; j < end; ++j) finish(layers_[j - first], j, k - radius_);
+    int made = -radius_;
+    for (int k = 0; k < task_.size.z; k += rowsAtOnce) {
+      for (; made < k + rowsAtOnce + radius_; ++made) makeLayer(first, end, made);
+      for (int j = first; j < end; ++j) finish(layers_[j - first], j, k);
     }
   }
 
@@ -141,40 +180,49 @@ class StripBlur {
       return;
     }
     task_.fill({first - radius_, end + radius_}, k, near_, far_);
-    for (int j = first; j < end; ++j) blurLayerRow(layers_[j - first], j, k);
+    for (int j = first; j < end; j += rowsAtOnce) {
+      blurLayerRows(&layers_[j - first], j, std::min(rowsAtOnce, end - j), k);
+      near_.clear(j - radius_ - 1, j - radius_ + rowsAtOnce);  // the caches still have them
+    }
     near_.clear();
     std::swap(near_, far_);
   }
 
-  /// Along y, then along x.
-  void blurLayerRow(LayerRing& layers, int j, int k) {
-    const CellSpan made = near_.filled(j - radius_, j + radius_ + 1);
+  /// Some rows from j on, along y, then along x.
+  void blurLayerRows(LayerRing* layers, int j, int rows, int k) {
+    const CellSpan made = near_.filled(j - radius_, j + rows + radius_);
     if (made.empty()) {
-      layers.begin(k, {});
+      for (int n = 0; n < rows; ++n) layers[n].begin(k, {});
       return;
     }
-    filter_.sum(
-        made, [&](int t) { return near_[j + t]; }, summed_.begin(made));
+    Rows sums;
+    for (int n = 0; n < rowsAtOnce; ++n) sums[n] = summed_[n].begin(made);
+    filter_.useRows([&](int t) { return near_[j + t]; });
+    filter_.sumRows(made, sums);
     const CellSpan reached{std::max(0, made.first - radius_), std::min(task_.size.x, made.end + radius_)};
-    const float* middle = summed_.data();
-    filter_.sum(
-        reached, [&](int t) { return middle + task_.channels * t; }, layers.begin(k, reached));
+    for (int n = 0; n < rows; ++n) filter_.sumAlong(reached, sums[n], layers[n].begin(k, reached));
   }
 
+  /// Row j of some layers from k on, piece by piece, so that what takes them mixes stores with the sums' arithmetic.
   void finish(LayerRing& layers, int j, int k) {
     const CellSpan reached = layers.reached();
-    if (!reached.empty())
-      filter_.sum(
-          reached, [&](int t) { return layers[k + t]; }, blurred_.data());
-    task_.finish(j, k, reached, blurred_.data());
+    Rows sums;
+    for (int n = 0; n < rowsAtOnce; ++n) sums[n] = blurred_[n].begin(reached);
+    filter_.useRows([&](int t) { return layers[k + t]; });
+    const int cells = pieceNumbers / task_.channels, rows = std::min(rowsAtOnce, task_.size.z - k);
+    for (int first = 0; first < task_.size.x; first += cells) {
+      const CellSpan piece{first, std::min(first + cells, task_.size.x)};
+      filter_.sumRows({std::max(piece.first, reached.first), std::min(piece.end, reached.end)}, sums);
+      for (int n = 0; n < rows; ++n) task_.finish(j, k + n, piece, reached, sums[n]);
+    }
   }
 
   const BlurTask& task_;
   int radius_;
   LayerRows near_, far_;
   RowFilter filter_;
-  PaddedLine summed_;
-  AlignedVector<float> blurred_;
+  std::vector<PaddedLine> summed_;
+  std::vector<PaddedLine> blurred_;
   std::vector<LayerRing> layers_;  ///< per row of the strip
 };
 

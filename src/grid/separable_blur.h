@@ -21,8 +21,9 @@ struct BlurTask {
   /// likes to those of layer k + 1 (far). Called for k = 0, 1, ... in turn. A row more on either side is there to be
   /// written, and not used.
   std::function<void(const CellSpan& rows, int k, LayerRows& near, LayerRows& far)> fill;
-  /// Takes row (j, k): cells outside `span` are zero. Called once for every row.
-  std::function<void(int j, int k, const CellSpan& span, const float* blurred)> finish;
+  /// Takes a piece of row (j, k), after those before it: cells outside `filled` are zero. `row` is all of the row, of
+  /// which the cells up to the piece's end are there. Together the pieces are all cells.
+  std::function<void(int j, int k, const CellSpan& piece, const CellSpan& filled, const float* row)> finish;
 };
 /// The callbacks come from several threads at once, each for rows of its own.
 void blurSeparably(const BlurTask& task);

@@ -57,8 +57,8 @@ void normalizeByGas(const Grid3<std::uint8_t>& solid, const SymmetricFilter& fil
       near.hasFilled(j, {0, solid.size.x});
     }
   };
-  task.finish = [&](int j, int k, const CellSpan&, const float* share) {
-    for (int i = 0; i < solid.size.x; ++i) perSource(i, j, k) = share[i] > 0 ? 1 / share[i] : 0;
+  task.finish = [&](int j, int k, const CellSpan& piece, const CellSpan&, const float* share) {
+    for (int i = piece.first; i < piece.end; ++i) perSource(i, j, k) = share[i] > 0 ? 1 / share[i] : 0;
   };
   blurSeparably(task);
 }
@@ -163,11 +163,10 @@ void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt
         near[j][i] *= scratch.perSource(i, j, k);
   };
   const float perVolume = static_cast<float>(1 / (dt * rate.cellSize * rate.cellSize * rate.cellSize));
-  task.finish = [&](int j, int k, const CellSpan& span, const float* mass) {
+  task.finish = [&](int j, int k, const CellSpan& piece, const CellSpan&, const float* mass) {
     float* row = &rate(0, j, k);
-    std::fill(row, row + std::max(0, span.first), 0.f);
-    for (int i = span.first; i < span.end; ++i) row[i] = solid(i, j, k) ? 0.f : mass[i] * perVolume;
-    std::fill(row + std::max(0, span.end), row + rate.size.x, 0.f);
+    const std::uint8_t* blocked = &solid(0, j, k);
+    for (int i = piece.first; i < piece.end; ++i) row[i] = blocked[i] ? 0.f : mass[i] * perVolume;
   };
   blurSeparably(task);
 }
