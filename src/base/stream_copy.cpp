@@ -21,6 +21,10 @@ void storeLines(float* to, const float* from, std::int64_t lines) {
   for (std::int64_t n = 0; n < lines * lineFloats; n += vectorFloats) _mm_stream_ps(to + n, _mm_loadu_ps(from + n));
 }
 
+void storeFew(float* to, const float* from, std::int64_t count) {
+  for (std::int64_t n = 0; n < count; ++n) to[n] = from[n];
+}
+
 /// What is missing of a line. Lines that are written in parts take the way through the caches, where the parts meet.
 std::int64_t untilLine(const float* to) {
   const std::uintptr_t beyond = reinterpret_cast<std::uintptr_t>(to) / sizeof(float) % lineFloats;
@@ -31,9 +35,9 @@ std::int64_t untilLine(const float* to) {
 void streamCopy(float* to, const float* from, std::int64_t count) {
   const std::int64_t head = std::min(untilLine(to), count), lines = (count - head) / lineFloats;
   const std::int64_t done = head + lines * lineFloats;
-  std::copy(from, from + head, to);
+  storeFew(to, from, head);
   storeLines(to + head, from + head, lines);
-  std::copy(from + done, from + count, to + done);
+  storeFew(to + done, from + done, count - done);
 }
 
 void streamZeros(float* to, std::int64_t count) {

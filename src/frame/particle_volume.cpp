@@ -26,8 +26,7 @@ SymmetricFilter filterFor(const ParticleVolumeSettings& settings) {
 struct DrawnPoints {
   const FrameParticles& particles;
   const ParticleVolumeSettings& settings;
-  const std::function<float(std::size_t)>& weigh;
-  const std::function<Vec3f(float)>& colourOf;
+  const ParticleLook& look;
 
   /// Of a run, the n-th particle's place along an axis.
   auto placeAlong(int axis, std::int64_t first) const {
@@ -36,29 +35,46 @@ struct DrawnPoints {
       return (double(places[3 * n]) - corner) * perCell - .5;
     };
   }
-  /// Rows of cells, -1 for what is not drawn.
-  void rowsOf(std::int64_t first, std::int64_t end, std::int32_t* rows) const {
+  /// Rows of cells, -1 for what is not drawn; the cells that the others reach along x.
+  CellSpan rowsOf(std::int64_t first, std::int64_t end, std::int32_t* rows) const {
     const int count = static_cast<int>(end - first);
     float mass[sortRun];
-    for (int n = 0; n < count; ++n) mass[n] = weigh(first + n);
+    look.weigh(first, count, mass);
+    int lowest = settings.size.x, highest = -1;
     runWide([&] {
       const ShareRun share = shares(first, count);
-      for (int n = 0; n < count; ++n) rows[n] = mass[n] > 0 ? rowOf(share[n], settings.size.y) : -1;
+      std::int32_t outside[sortRun];
+      for (int n = 0; n < count; ++n) outside[n] = !(mass[n] > 0);
       for (int axis = 0; axis < 3; ++axis) {
         const auto place = placeAlong(axis, first);
-        const double size = settings.size[axis];
-        for (int n = 0; n < count; ++n) rows[n] = place(n) >= -.5 && place(n) <= size - .5 ? rows[n] : -1;
+        const double last = settings.size[axis] - .5;
+#pragma GCC ivdep
+        for (int n = 0; n < count; ++n) {
+          const double at = place(n);
+          outside[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= last)};
+        }
+      }
+      const int rowsPerLayer = settings.size.y;
+#pragma GCC ivdep
+      for (int n = 0; n < count; ++n) rows[n] = outside[n] ? -1 : share.lower[1][n] + rowsPerLayer * share.lower[2][n];
+      for (int n = 0; n < count; ++n) {
+        lowest = std::min(lowest, rows[n] < 0 ? lowest : share.lower[0][n]);
+        highest = std::max(highest, rows[n] < 0 ? highest : share.lower[0][n]);
       }
     });
+    return {lowest, highest + 1};
   }
   void make(std::int64_t first, std::int64_t end, Point* points) const {
     const int count = static_cast<int>(end - first);
+    float mass[sortRun];
+    Vec3f colour[sortRun];
+    look.weigh(first, count, mass);
+    look.colour(particles.temperature.data() + first, count, colour);
     ShareRun share;
     runWide([&] { share = shares(first, count); });
     for (int n = 0; n < count; ++n) {
-      const float mass = weigh(first + n);
-      const Vec3f colour = colourOf(particles.temperature[first + n]) * mass;
-      points[n] = {share[n], {mass, colour.x, colour.y, colour.z}};
+      const Vec3f amount = colour[n] * mass[n];
+      points[n] = {share[n], {mass[n], amount.x, amount.y, amount.z}};
     }
   }
 
@@ -70,12 +86,16 @@ struct DrawnPoints {
   }
 };
 
-void sortDrawn(const DrawnPoints& drawn, Binned<Point>& points) {
-  const std::int64_t rows = static_cast<std::int64_t>(drawn.settings.size.y) * drawn.settings.size.z;
+void sortDrawn(const DrawnPoints& drawn, SplatScratch& scratch) {
+  const std::int64_t count = static_cast<std::int64_t>(drawn.particles.position.size()),
+                     rows = static_cast<std::int64_t>(drawn.settings.size.y) * drawn.settings.size.z;
+  scratch.reachAlongX.assign(static_cast<std::size_t>((count + sortRun - 1) / sortRun), {});
   sortIntoBins(
-      static_cast<std::int64_t>(drawn.particles.position.size()), rows,
-      [&](std::int64_t first, std::int64_t end, std::int32_t* bins) { drawn.rowsOf(first, end, bins); },
-      [&](std::int64_t first, std::int64_t end, Point* made) { drawn.make(first, end, made); }, points);
+      count, rows,
+      [&](std::int64_t first, std::int64_t end, std::int32_t* bins) {
+        scratch.reachAlongX[first / sortRun] = drawn.rowsOf(first, end, bins);
+      },
+      [&](std::int64_t first, std::int64_t end, Point* made) { drawn.make(first, end, made); }, scratch.points);
 }
 
 /// Cells of the asked volume, by their numbers.
@@ -83,37 +103,27 @@ struct CellBox {
   Vec3i lower, size;
 };
 
-/// The cells before which and after which no point lies.
+/// The cells before which and after which no point's lower neighbours lie.
 struct PointBounds {
-  Vec3i lower{1 << 30, 1 << 30, 1 << 30}, upper{-1, -1, -1};
-  void include(const PointBounds& other) {
-    lower = min(lower, other.lower);
-    upper = max(upper, other.upper);
-  }
+  Vec3i lower, upper;
 };
 
-PointBounds boundsOfLayer(const Binned<Point>& points, int rowsPerLayer, int k) {
-  PointBounds bounds;
-  for (int j = 0; j < rowsPerLayer; ++j)
-    for (const Point& point : points.bin(j + static_cast<std::int64_t>(rowsPerLayer) * k))
-      bounds.include({{point.lower, j, k}, {point.lower + 1, j + 1, k + 1}});
-  return bounds;
-}
-
-PointBounds boundsOf(const Binned<Point>& points, const Vec3i& volumeSize) {
-  std::vector<PointBounds> ofLayer(volumeSize.z);
-  parallelFor(0, volumeSize.z, 1, [&](std::int64_t first, std::int64_t last) {
-    for (int k = static_cast<int>(first); k < last; ++k) ofLayer[k] = boundsOfLayer(points, volumeSize.y, k);
-  });
-  PointBounds all;
-  for (const PointBounds& layer : ofLayer) all.include(layer);
-  return all;
+PointBounds boundsOf(const SplatScratch& scratch, const Vec3i& volumeSize) {
+  CellSpan x, y, z;
+  for (const CellSpan& reach : scratch.reachAlongX) x.include(reach);
+  for (int k = 0; k < volumeSize.z; ++k)
+    for (int j = 0; j < volumeSize.y; ++j) {
+      if (scratch.points.bin(j + static_cast<std::int64_t>(volumeSize.y) * k).empty()) continue;
+      y.include({j, j + 1});
+      z.include({k, k + 1});
+    }
+  return {{x.first, y.first, z.first}, {x.end, y.end, z.end}};
 }
 
 /// What any particle reaches, and one empty cell more, inside the volume.
-CellBox reachedCells(const Binned<Point>& points, int radius, const Vec3i& volumeSize) {
-  if (points.items.empty()) return {{0, 0, 0}, {1, 1, 1}};
-  const PointBounds bounds = boundsOf(points, volumeSize);
+CellBox reachedCells(const SplatScratch& scratch, int radius, const Vec3i& volumeSize) {
+  if (scratch.points.items.empty()) return {{0, 0, 0}, {1, 1, 1}};
+  const PointBounds bounds = boundsOf(scratch, volumeSize);
   const Vec3i rim(radius + 1, radius + 1, radius + 1);
   const Vec3i lower = max(Vec3i(0, 0, 0), bounds.lower - rim);
   return {lower, min(volumeSize - Vec3i(1, 1, 1), bounds.upper + rim) - lower + Vec3i(1, 1, 1)};
@@ -228,29 +238,18 @@ BlurTask volumeBlur(const SymmetricFilter& filter, ParticleVolume& volume) {
 
 }  // namespace
 
-void splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
-                    const std::function<float(std::size_t)>& weigh, const std::function<Vec3f(float)>& colourOf,
+void splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings, const ParticleLook& look,
                     ParticleVolume& volume, SplatScratch& scratch) {
   const SymmetricFilter filter = filterFor(settings);
-  Binned<Point>& points = scratch.points;
-  sortDrawn({particles, settings, weigh, colourOf}, points);
-  const CellBox cells = reachedCells(points, filter.radius(), settings.size);
+  sortDrawn({particles, settings, look}, scratch);
+  const CellBox cells = reachedCells(scratch, filter.radius(), settings.size);
   layOut(volume.density, cells, settings);
   layOut(volume.colour, cells, settings);
   std::array<std::vector<float>, 3> gain;
   for (int axis = 0; axis < 3; ++axis) gain[axis] = filter.gainInside(settings.size[axis]);
   BlurTask blur = volumeBlur(filter, volume);
-  blur.fill = LayerSplat<channels>(points, std::move(gain), cells.lower);
+  blur.fill = LayerSplat<channels>(scratch.points, std::move(gain), cells.lower);
   blurSeparably(blur);
-}
-
-ParticleVolume splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
-                              const std::function<float(std::size_t)>& weigh,
-                              const std::function<Vec3f(float)>& colourOf) {
-  ParticleVolume volume;
-  SplatScratch scratch;
-  splatParticles(particles, settings, weigh, colourOf, volume, scratch);
-  return volume;
 }
 
 }  // namespace brisance

@@ -26,23 +26,48 @@ struct ParticleVolume {
   Grid3<Vec3f> colour;
 };
 
-/// `weigh` gives a particle's mass as the picture counts it (0: not drawn); `colourOf` its colour from its temperature
-/// [K]; both are called from several threads. Particles outside the volume are not drawn; the filter is narrowed at the
-/// volume's faces so that no mass leaves it. Each particle is shared by the eight cell centres around it; the Gaussian
-/// is separable.
-ParticleVolume splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
-                              const std::function<float(std::size_t)>& weigh,
-                              const std::function<Vec3f(float)>& colourOf);
+/// What the picture makes of particles; both are called from several threads.
+struct ParticleLook {
+  /// Masses as the picture counts them, of particles first .. first + count - 1; 0: not drawn.
+  std::function<void(std::int64_t first, int count, float* masses)> weigh;
+  /// Colours of so many temperatures [K].
+  std::function<void(const float* temperatures, int count, Vec3f* colours)> colour;
+};
+/// From what `weigh(n)` gives for particle n and `colourOf(temperature)`, which must live as long.
+template <class Weigh, class ColourOf>
+ParticleLook lookOf(const Weigh& weigh, const ColourOf& colourOf) {
+  return {[&weigh](std::int64_t first, int count, float* masses) {
+            for (int n = 0; n < count; ++n) masses[n] = weigh(static_cast<std::size_t>(first + n));
+          },
+          [&colourOf](const float* temperatures, int count, Vec3f* colours) {
+            for (int n = 0; n < count; ++n) colours[n] = colourOf(temperatures[n]);
+          }};
+}
 
-/// The particles in the order in which they are summed.
+/// What is kept for the next volume: the particles in the order in which they are summed, and how far they reach.
 struct SplatScratch {
   Binned<SplatPoint<4>> points;
+  std::vector<CellSpan> reachAlongX;  ///< per run of particles
 };
 
-/// The same into a volume whose memory is used again, with the scratch memory: much of the time for fresh ones goes
-/// into fresh pages.
-void splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
-                    const std::function<float(std::size_t)>& weigh, const std::function<Vec3f(float)>& colourOf,
+/// Particles outside the volume are not drawn; the filter is narrowed at the volume's faces so that no mass leaves it.
+/// Each particle is shared by the eight cell centres around it; the Gaussian is separable. The volume's memory is used
+/// again, and the scratch memory: much of the time for fresh ones goes into fresh pages.
+void splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings, const ParticleLook& look,
                     ParticleVolume& volume, SplatScratch& scratch);
+
+template <class Weigh, class ColourOf>
+void splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings, const Weigh& weigh,
+                    const ColourOf& colourOf, ParticleVolume& volume, SplatScratch& scratch) {
+  splatParticles(particles, settings, lookOf(weigh, colourOf), volume, scratch);
+}
+template <class Weigh, class ColourOf>
+ParticleVolume splatParticles(const FrameParticles& particles, const ParticleVolumeSettings& settings,
+                              const Weigh& weigh, const ColourOf& colourOf) {
+  ParticleVolume volume;
+  SplatScratch scratch;
+  splatParticles(particles, settings, weigh, colourOf, volume, scratch);
+  return volume;
+}
 
 }  // namespace brisance

@@ -26,9 +26,9 @@ struct Weights {
 
 /// Filtered sums of rows 0 .. 3 over rows[-radius] .. rows[radius + 3], of the vectors of numbers from `first` until
 /// `end`. The rows at a distance t below and above each are those at t - 1 of its neighbours, so that two are loaded
-/// for four sums.
-template <int fixedRadius>
-inline void sumNeighbours(const float* const* rows, const Weights<fixedRadius>& filter, int first, int end,
+/// for four sums. Where `cleared`, the first four of the rows become zero.
+template <bool cleared, int fixedRadius>
+inline void sumNeighbours(float* const* rows, const Weights<fixedRadius>& filter, int first, int end,
                           float* const* sums) {
   for (int at = first; at < end; at += vectorFloats) {
     FloatVector below[rowsAtOnce], above[rowsAtOnce], sum[rowsAtOnce];
@@ -43,7 +43,10 @@ inline void sumNeighbours(const float* const* rows, const Weights<fixedRadius>& 
       above[rowsAtOnce - 1] = vectorAt(rows[rowsAtOnce - 1 + t] + at);
       for (int q = 0; q < rowsAtOnce; ++q) sum[q] += (below[q] + above[q]) * filter.weights[t];
     }
-    for (int q = 0; q < rowsAtOnce; ++q) vectorAt(sums[q] + at) = sum[q];
+    for (int q = 0; q < rowsAtOnce; ++q) {
+      vectorAt(sums[q] + at) = sum[q];
+      if (cleared) vectorAt(rows[q - filter.radius()] + at) = FloatVector{};
+    }
   }
 }
 

@@ -40,14 +40,16 @@ class LayerRows {
     for (int row = first; row < end; ++row) all.include(filled(row));
     return all;
   }
-  void clear() { clear(first_, first_ + static_cast<int>(filled_.size())); }
-  /// Rows [first, end).
-  void clear(int first, int end) {
-    for (int row = first; row < end; ++row) {
-      CellSpan& span = filled_[row - first_];
-      if (!span.empty()) std::fill((*this)[row] + channels_ * span.first, (*this)[row] + channels_ * span.end, 0.f);
-      span = {};
+  void clear() {
+    for (std::size_t n = 0; n < filled_.size(); ++n) {
+      float* row = values_.data() + static_cast<std::int64_t>(n) * width_;
+      if (!filled_[n].empty()) std::fill(row + channels_ * filled_[n].first, row + channels_ * filled_[n].end, 0.f);
+      filled_[n] = {};
     }
+  }
+  /// To be told where rows [first, end) were set to zero.
+  void isClear(int first, int end) {
+    for (int row = first; row < end; ++row) filled_[row - first_] = {};
   }
 
  private:

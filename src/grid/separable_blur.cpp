@@ -29,6 +29,8 @@ struct NumberSpan {
       : first(roundDown(channels * cells.first, vectorFloats)), end(channels * cells.end) {}
 };
 
+constexpr int cellsBefore = vectorFloats;
+
 using Rows = std::array<float*, rowsAtOnce>;
 
 /// Filtered sums along x, y or z of a span of cells, according to what rows are given; `sums` has room for whole
@@ -58,14 +60,19 @@ class RowFilter {
   void useRows(const Row& row) {
     for (int t = -radius_; t < radius_ + rowsAtOnce; ++t) rows_[t + radius_] = row(t);
   }
-  void sumRows(const CellSpan& cells, const Rows& sums) const {
-    const NumberSpan span(cells, channels_);
-    forRadius([&](const auto& weights) {
-      runWide([&] { blur::sumNeighbours(rows_.data() + radius_, weights, span.first, span.end, sums.data()); });
-    });
-  }
+  void sumRows(const CellSpan& cells, const Rows& sums) const { sumNeighbours<false>(cells, sums); }
+  /// The first four of the rows become zero there.
+  void sumAndClearRows(const CellSpan& cells, const Rows& sums) const { sumNeighbours<true>(cells, sums); }
 
  private:
+  template <bool cleared>
+  void sumNeighbours(const CellSpan& cells, const Rows& sums) const {
+    const NumberSpan span(cells, channels_);
+    forRadius([&](const auto& weights) {
+      runWide(
+          [&] { blur::sumNeighbours<cleared>(rows_.data() + radius_, weights, span.first, span.end, sums.data()); });
+    });
+  }
   template <class Visit>
   void forRadius(const Visit& visit) const {
     const float* weights = weights_.data();
@@ -85,7 +92,7 @@ class RowFilter {
 
   int radius_, channels_;
   std::vector<float> weights_;
-  std::vector<const float*> rows_;
+  std::vector<float*> rows_;
 };
 
 /// Numbers around which there are zeros, as far as a filter along them reaches; zero but for a span.
@@ -118,6 +125,30 @@ class PaddedLine {
   AlignedVector<float> values_;
 };
 
+/// A piece of some rows, and the cells before it: so short that it stays in the nearest cache.
+class PieceRows {
+ public:
+  explicit PieceRows(int channels) : before_(cellsBefore * channels), values_(rowsAtOnce * length()) {}
+  /// The rows, of which the numbers from `first` on are there to be written, zeros until then if `clear`, and those
+  /// before as they were.
+  Rows next(int first, bool clear) {
+    Rows rows;
+    for (int n = 0; n < rowsAtOnce; ++n) {
+      float* row = values_.data() + n * length();
+      std::copy(row + pieceNumbers, row + pieceNumbers + before_, row);
+      if (clear) std::fill(row + before_, row + before_ + pieceNumbers, 0.f);
+      rows[n] = row + before_ - first;
+    }
+    return rows;
+  }
+
+ private:
+  int length() const { return before_ + pieceNumbers + vectorFloats; }
+
+  int before_;
+  AlignedVector<float> values_;
+};
+
 /// One row of the last layers, as many as the filter reaches.
 class LayerRing {
  public:
@@ -129,7 +160,7 @@ class LayerRing {
     spans_[slotOf(k)] = span;
     return layers_[slotOf(k)].begin(span);
   }
-  const float* operator[](int k) { return layers_[slotOf(k)].data(); }
+  float* operator[](int k) { return layers_[slotOf(k)].data(); }
   /// The cells that the sums over all layers fill.
   CellSpan reached() const {
     CellSpan all;
@@ -157,7 +188,7 @@ class StripBlur {
         far_(near_),
         filter_(task),
         summed_(rowsAtOnce, PaddedLine(task)),
-        blurred_(rowsAtOnce, PaddedLine(task)),
+        blurred_(task.channels),
         layers_(rows, LayerRing(task)) {}
 
   /// Rows first <= j < end, no more than the constructor was told.
@@ -180,17 +211,15 @@ class StripBlur {
       return;
     }
     task_.fill({first - radius_, end + radius_}, k, near_, far_);
-    for (int j = first; j < end; j += rowsAtOnce) {
+    for (int j = first; j < end; j += rowsAtOnce)
       blurLayerRows(&layers_[j - first], j, std::min(rowsAtOnce, end - j), k);
-      near_.clear(j - radius_ - 1, j - radius_ + rowsAtOnce);  // the caches still have them
-    }
     near_.clear();
     std::swap(near_, far_);
   }
 
   /// Some rows from j on, along y, then along x.
   void blurLayerRows(LayerRing* layers, int j, int rows, int k) {
-    const CellSpan made = near_.filled(j - radius_, j + rows + radius_);
+    const CellSpan made = near_.filled(j - radius_, j + rowsAtOnce + radius_);
     if (made.empty()) {
       for (int n = 0; n < rows; ++n) layers[n].begin(k, {});
       return;
@@ -198,7 +227,8 @@ class StripBlur {
     Rows sums;
     for (int n = 0; n < rowsAtOnce; ++n) sums[n] = summed_[n].begin(made);
     filter_.useRows([&](int t) { return near_[j + t]; });
-    filter_.sumRows(made, sums);
+    filter_.sumAndClearRows(made, sums);
+    near_.isClear(j - radius_, j - radius_ + rowsAtOnce);
     const CellSpan reached{std::max(0, made.first - radius_), std::min(task_.size.x, made.end + radius_)};
     for (int n = 0; n < rows; ++n) filter_.sumAlong(reached, sums[n], layers[n].begin(k, reached));
   }
@@ -206,13 +236,14 @@ class StripBlur {
   /// Row j of some layers from k on, piece by piece, so that what takes them mixes stores with the sums' arithmetic.
   void finish(LayerRing& layers, int j, int k) {
     const CellSpan reached = layers.reached();
-    Rows sums;
-    for (int n = 0; n < rowsAtOnce; ++n) sums[n] = blurred_[n].begin(reached);
     filter_.useRows([&](int t) { return layers[k + t]; });
     const int cells = pieceNumbers / task_.channels, rows = std::min(rowsAtOnce, task_.size.z - k);
     for (int first = 0; first < task_.size.x; first += cells) {
       const CellSpan piece{first, std::min(first + cells, task_.size.x)};
-      filter_.sumRows({std::max(piece.first, reached.first), std::min(piece.end, reached.end)}, sums);
+      const CellSpan inside{std::max(piece.first, reached.first), std::min(piece.end, reached.end)};
+      const bool partly = inside.first > piece.first || inside.end < piece.end;
+      const Rows sums = blurred_.next(first * task_.channels, partly);
+      filter_.sumRows(inside, sums);
       for (int n = 0; n < rows; ++n) task_.finish(j, k + n, piece, reached, sums[n]);
     }
   }
@@ -222,13 +253,13 @@ class StripBlur {
   LayerRows near_, far_;
   RowFilter filter_;
   std::vector<PaddedLine> summed_;
-  std::vector<PaddedLine> blurred_;
+  PieceRows blurred_;
   std::vector<LayerRing> layers_;  ///< per row of the strip
 };
 
 /// Wide enough that few rows are made twice, and enough strips for the threads.
 int rowsPerStrip(const BlurTask& task) {
-  const int wide = std::max(16, 2 * task.filter.radius()), share = task.size.y / (2 * threadCount());
+  const int wide = std::max(12, 2 * task.filter.radius()), share = task.size.y / (2 * threadCount());
   return std::clamp(share, std::min(8, task.size.y), wide);
 }
 

@@ -21,8 +21,8 @@ struct BlurTask {
   /// likes to those of layer k + 1 (far). Called for k = 0, 1, ... in turn. A row more on either side is there to be
   /// written, and not used.
   std::function<void(const CellSpan& rows, int k, LayerRows& near, LayerRows& far)> fill;
-  /// Takes a piece of row (j, k), after those before it: cells outside `filled` are zero. `row` is all of the row, of
-  /// which the cells up to the piece's end are there. Together the pieces are all cells.
+  /// Takes a piece of row (j, k), after those before it: cells outside `filled` are zero. `row` is the row's
+  /// start, but of its cells only those of the piece and 16 before it are there. Together the pieces are all cells.
   std::function<void(int j, int k, const CellSpan& piece, const CellSpan& filled, const float* row)> finish;
 };
 /// The callbacks come from several threads at once, each for rows of its own.
