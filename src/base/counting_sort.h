@@ -107,16 +107,17 @@ template <class Item>
 void sortGroup(Binned<Item>& sorted, std::int64_t blocks, std::int64_t group, std::int64_t firstBin,
                std::int64_t bins) {
   const std::int64_t groups = static_cast<std::int64_t>(sorted.groupStart.size()) - 1;
-  const auto prefetch = [&](std::uint32_t n) {  // the caches find the rest of a piece from its start
-    constexpr std::uint32_t line = 64;
-    __builtin_prefetch(sorted.groupedBinOf.data() + n);
-    for (std::uint32_t byte = 0; byte < 8 * line; byte += line)
-      __builtin_prefetch(reinterpret_cast<const char*>(sorted.grouped.data() + n) + byte);
+  const auto prefetch = [&](std::uint32_t first, std::uint32_t end) {  // the caches find the rest from the start
+    constexpr std::size_t line = 64, most = 8 * line;
+    const char* items = reinterpret_cast<const char*>(sorted.grouped.data() + first);
+    __builtin_prefetch(sorted.groupedBinOf.data() + first);
+    for (std::size_t byte = 0; byte < std::min(most, (end - first) * sizeof(Item)); byte += line)
+      __builtin_prefetch(items + byte);
   };
   const auto forItems = [&](const auto& visit) {
     for (std::int64_t block = 0; block < blocks; ++block) {
       const std::uint32_t* piece = &sorted.pieceStart[block * (groups + 1) + group];
-      if (block + 1 < blocks) prefetch(piece[groups + 1]);
+      if (block + 1 < blocks) prefetch(piece[groups + 1], piece[groups + 2]);
       for (std::uint32_t n = piece[0]; n < piece[1]; ++n) visit(n, sorted.groupedBinOf[n] - firstBin);
     }
   };
