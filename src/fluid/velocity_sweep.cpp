@@ -1,4 +1,5 @@
 #include "base/parallel.h"
+#include "base/row_lines.h"
 #include "base/vector_path.h"
 #include "fluid/advection.h"
 #include "fluid/donor_rows.h"
@@ -139,12 +140,12 @@ class SpeedSweep {
     const Stencil at = stencil;  // which no store changes
     const Gained gained = gain;
     const float c = c_, weight = weight_;
-#pragma GCC ivdep
-    for (int i = 0; i < count; ++i) {
+    const auto fetch = [&](std::int64_t i) { fetchToRead(i + count, at.s.upper[2]); };  // the next row lies behind
+    forLines(count, fetch, [&](std::int64_t i) {
       const float here = at.s.here[i];
       const float moved = carried(at.s, DonorShares(at.sides, weight, i), c, i) + gained(i);
       out[i] = open[i] > 0 ? moved : here;
-    }
+    });
   }
 
   const FluidState& gas_;
