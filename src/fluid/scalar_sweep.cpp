@@ -92,18 +92,27 @@ class ScalarSweep {
 
   template <bool solids>
   void stepRow(const ScalarRow& row, ScalarRoom& room) const {
-    if (move<solids>(row)) heat<solids>(row, room);
-    account<solids>(row, room);
+    const Warmth warmth = move<solids>(row);
+    if (warmth.changes) heat<solids>(row, room);
+    if (warmth.any)
+      account<solids>(row, room);
+    else
+      room.hottest.parts()[0] = std::max(room.hottest.parts()[0], std::abs(ambient_));
   }
 
-  /// All three by the same shares; solid cells keep their temperature. Returns whether anything is heated or cools.
+  /// Of a row, before and after it was carried.
+  struct Warmth {
+    bool any;      ///< whether a cell is not at the ambient temperature: if none is, no heat came or went
+    bool changes;  ///< whether a cell is heated or cools
+  };
+  /// All three by the same shares; solid cells keep their temperature.
   template <bool solids>
-  bool move(const ScalarRow& at) const {
+  Warmth move(const ScalarRow& at) const {
     const ScalarRow row = at;  // which no store changes
     const float c = c_, weight = weight_, dt = dt_, sootPerRate = sootPerRate_, flameKept = flameKept_;
     const float ambient = ambient_;
     const int count = size_.x;
-    std::uint32_t restless = 0;
+    std::uint32_t warm = 0, changing = 0;
     const auto fetch = [&](std::int64_t i) {
       i += count;  // the next row lies behind
       fetchToRead(i, row.temperature.upper[2], row.soot.upper[2], row.flame.upper[2], row.heatRate, row.burnRate);
@@ -119,9 +128,10 @@ class ScalarSweep {
       row.newTemperature[i] = newT;
       row.newSoot[i] = (solid ? soot : movedSoot) + sootPerRate * burnt;
       row.newFlame[i] = (solid ? flame : movedFlame) * flameKept + dt * burnt;
-      restless |= std::uint32_t{newT > ambient} | std::uint32_t{heated != 0};
+      warm |= std::uint32_t{T != ambient} | std::uint32_t{newT != ambient};
+      changing |= std::uint32_t{newT > ambient} | std::uint32_t{heated != 0};
     });
-    return restless != 0;
+    return {(warm | changing) != 0, changing != 0};
   }
 
   template <bool solids>
