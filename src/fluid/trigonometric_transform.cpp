@@ -4,6 +4,7 @@
 
 #include "base/check.h"
 #include "base/vector_path.h"
+#include "fluid/paired_lines.h"
 
 namespace brisance {
 
@@ -41,15 +42,6 @@ void copyLanes(const float* from, float sign, float* to) {
   for (int l = 0; l < lanes; ++l) to[l] = sign * from[l];
 }
 
-constexpr float noSamples[lanes] = {};
-
-/// Sample j of the lines, or zeros; the next lines' sample is fetched meanwhile.
-const float* sampleAt(const Lines& lines, int j) {
-  if (lines.present && !lines.present[j]) return noSamples;
-  const float* at = lines.samples + j * lines.stride;
-  __builtin_prefetch(at + lanes);
-  return at;
-}
 }  // namespace
 
 detail::ComplexFourier::ComplexFourier(int size_) : size(size_), place(size_) {
@@ -103,7 +95,7 @@ double modeEigenvalue(AxisEnds ends, int n, int k) {
 }
 
 LineTransform::LineTransform(AxisEnds ends, int n) : ends_(ends), n_(n) {
-  if (n % 2 || !detail::ComplexFourier::takes(n / 2)) {
+  if (n % 2 || n < 4 || !detail::ComplexFourier::takes(n / 2)) {
     prepareDirect();
     return;
   }
@@ -172,11 +164,9 @@ void LineTransform::inverse(const Lines& in, const Lines& out, float* work) cons
 void LineTransform::realForward(const Lines& in, const Lines& out, float* work) const {
   const ComplexLines Z = halves(work);
   const int half = n_ / 2;
-  for (int m = 0; m < half; ++m) {
-    copyLanes(sampleAt(in, source_[2 * m]), sign_[2 * m], Z.re + m * lanes);
-    copyLanes(sampleAt(in, source_[2 * m + 1]), sign_[2 * m + 1], Z.im + m * lanes);
-  }
-  transform(fourier_, Z);
+  detail::visitKind(in.present, ends_ == AxisEnds::open, [&]<bool sparse, bool flipped>() {
+    transform(fourier_, detail::PairedSource<sparse, flipped>{in, {source_.data(), sign_.data()}}, Z);
+  });
   const auto to = [&](int k) { return out.samples + k * out.stride; };
   const float middle = rotation_[half].re;
   float *first = to(0), *last = to(half);
@@ -228,15 +218,10 @@ void LineTransform::realInverse(const Lines& in, const Lines& out, float* work) 
       Z.store(there + l, plusI(conjugate(E), conjugate(O)));
     }
   }
-  transformBack(fourier_, Z);
-  const auto store = [&](int m, const float* sample) {
-    const int j = source_[m];
-    if (!out.present || out.present[j]) copyLanes(sample, sign_[m], out.samples + j * out.stride);
-  };
-  for (int m = 0; m < half; ++m) {
-    store(2 * m, Z.re + m * lanes);
-    store(2 * m + 1, Z.im + m * lanes);
-  }
+  float unwanted[lanes];
+  detail::visitKind(out.present, ends_ == AxisEnds::open, [&]<bool sparse, bool flipped>() {
+    transformBack(fourier_, Z, detail::PairedSink<sparse, flipped>{out, {source_.data(), sign_.data()}, unwanted});
+  });
 }
 
 /// With t_m = (x_2m + i x_(n-1-2m)) r_m and T its transform, T_k r_k is X_2k - i X_(n-1-2k), r_m = exp(-i pi (m + 1/8)
@@ -245,15 +230,7 @@ void LineTransform::quarterWave(const Lines& in, const Lines& out, float* work, 
   const ComplexLines Z = halves(work);
   const int half = n_ / 2;
   const bool fromEnd = ends_ == AxisEnds::openThenWall;
-  const auto input = [&](int j) { return sampleAt(in, fromEnd && !inverse ? n_ - 1 - j : j); };
-  for (int m = 0; m < half; ++m) {
-    const float *a = input(2 * m), *b = input(n_ - 1 - 2 * m);
-    const Complex r = rotation_[m];
-#pragma GCC ivdep
-#pragma GCC unroll 1
-    for (int l = 0; l < lanes; ++l) Z.store(m * lanes + l, r * Complex{a[l], b[l]});
-  }
-  transform(fourier_, Z);
+  transform(fourier_, detail::QuarterSource{in, rotation_.data(), n_, fromEnd && !inverse}, Z);
   float unwanted[lanes];
   const auto output = [&](int j) {
     const int at = fromEnd && inverse ? n_ - 1 - j : j;
@@ -274,7 +251,7 @@ void LineTransform::quarterWave(const Lines& in, const Lines& out, float* work, 
 }
 
 void LineTransform::direct(const Lines& in, const Lines& out, float* work, const std::vector<float>& matrix) const {
-  for (int j = 0; j < n_; ++j) copyLanes(sampleAt(in, j), 1, work + j * lanes);
+  for (int j = 0; j < n_; ++j) copyLanes(detail::sampleOrZeros(in, j), 1, work + j * lanes);
   for (int k = 0; k < n_; ++k) {
     if (out.present && !out.present[k]) continue;
     float sum[lanes] = {};
