@@ -10,7 +10,6 @@ namespace brisance {
 
 using detail::Complex;
 using detail::ComplexLines;
-using detail::conjugate;
 using detail::lanes;
 
 namespace {
@@ -144,84 +143,32 @@ void LineTransform::prepareDirect() {
 ComplexLines LineTransform::halves(float* work) const { return {work, work + n_ / 2 * lanes}; }
 
 void LineTransform::forward(const Lines& in, const Lines& out, float* work) const {
+  if (method_ == Method::realFourier) return realForward(in, out, work);
   runWide([&] {
-    if (method_ == Method::realFourier) return realForward(in, out, work);
     if (method_ == Method::quarterWave) return quarterWave(in, out, work, false);
     direct(in, out, work, forwardMatrix_);
   });
 }
 
 void LineTransform::inverse(const Lines& in, const Lines& out, float* work) const {
+  if (method_ == Method::realFourier) return realInverse(in, out, work);
   runWide([&] {
-    if (method_ == Method::realFourier) return realInverse(in, out, work);
     if (method_ == Method::quarterWave) return quarterWave(in, out, work, true);
     direct(in, out, work, inverseMatrix_);
   });
 }
 
-/// Legend: Z the transform of the pairs v_2m + i v_2m+1; E and O those of v's even and odd samples, V = E + w^k O that
-/// of v; at n/2 - k it is the conjugate of E - w^k O. The cosine and sine parts are +Re and -Im of the rotated V.
-void LineTransform::realForward(const Lines& in, const Lines& out, float* work) const {
-  const ComplexLines Z = halves(work);
-  const int half = n_ / 2;
-  detail::visitKind(in.present, ends_ == AxisEnds::open, [&]<bool sparse, bool flipped>() {
-    transform(fourier_, detail::PairedSource<sparse, flipped>{in, {source_.data(), sign_.data()}}, Z);
+void LineTransform::filter(const Lines& lines, const ModeFactors& factors, float* modes, float* work) const {
+  if (method_ == Method::realFourier) return realFilter(lines, factors, work);
+  forward(lines, {modes, lanes}, work);
+  runWide([&] {
+    for (int k = 0; k < n_; ++k)
+#pragma GCC ivdep
+#pragma GCC unroll 1
+      for (int l = 0; l < lanes; ++l) modes[k * lanes + l] *= factors.scale / (factors.along[l] + factors.across[k]);
   });
-  const auto to = [&](int k) { return out.samples + k * out.stride; };
-  const float middle = rotation_[half].re;
-  float *first = to(0), *last = to(half);
-#pragma GCC ivdep
-#pragma GCC unroll 1
-  for (int l = 0; l < lanes; ++l) {
-    const Complex z = Z.load(l);
-    first[l] = z.re + z.im;
-    last[l] = middle * (z.re - z.im);
-  }
-  for (int k = 1; 2 * k <= half; ++k) {
-    const std::int64_t here = fourier_.place[k] * lanes, there = fourier_.place[half - k] * lanes;
-    const Complex w = split_[k], e = 0.5f * rotation_[k], f = 0.5f * rotation_[half - k];
-    float *a = to(k), *b = to(n_ - k), *c = to(half - k), *d = to(half + k);
-#pragma GCC ivdep
-#pragma GCC unroll 1
-    for (int l = 0; l < lanes; ++l) {
-      const Complex z = Z.load(here + l), y = conjugate(Z.load(there + l));
-      const Complex E = z + y, difference = z - y, O{difference.im, -difference.re}, T = w * O;
-      const Complex V = e * (E + T), U = f * conjugate(E - T);
-      a[l] = V.re;
-      b[l] = -V.im;
-      c[l] = U.re;
-      d[l] = -U.im;
-    }
-  }
-}
-
-/// The same steps backwards; twice E and O are kept, which with the n/2 of transformBack makes the factor n.
-void LineTransform::realInverse(const Lines& in, const Lines& out, float* work) const {
-  const ComplexLines Z = halves(work);
-  const int half = n_ / 2;
-  const auto from = [&](int k) { return in.samples + k * in.stride; };
-  const float middle = 1 / rotation_[half].re;
-  const float *first = from(0), *last = from(half);
-#pragma GCC ivdep
-#pragma GCC unroll 1
-  for (int l = 0; l < lanes; ++l) Z.store(l, {first[l] + middle * last[l], first[l] - middle * last[l]});
-  for (int k = 1; 2 * k <= half; ++k) {
-    const std::int64_t here = fourier_.place[k] * lanes, there = fourier_.place[half - k] * lanes;
-    const Complex w = conjugate(split_[k]), e = conjugate(rotation_[k]), f = conjugate(rotation_[half - k]);
-    const float *a = from(k), *b = from(n_ - k), *c = from(half - k), *d = from(half + k);
-#pragma GCC ivdep
-#pragma GCC unroll 1
-    for (int l = 0; l < lanes; ++l) {
-      const Complex V = e * Complex{a[l], -b[l]}, U = conjugate(f * Complex{c[l], -d[l]});
-      const Complex E = V + U, O = w * (V - U);
-      Z.store(here + l, plusI(E, O));
-      Z.store(there + l, plusI(conjugate(E), conjugate(O)));
-    }
-  }
-  float unwanted[lanes];
-  detail::visitKind(out.present, ends_ == AxisEnds::open, [&]<bool sparse, bool flipped>() {
-    transformBack(fourier_, Z, detail::PairedSink<sparse, flipped>{out, {source_.data(), sign_.data()}, unwanted});
-  });
+  if (factors.firstIsZero) modes[0] = 0;
+  inverse({modes, lanes}, lines, work);
 }
 
 /// With t_m = (x_2m + i x_(n-1-2m)) r_m and T its transform, T_k r_k is X_2k - i X_(n-1-2k), r_m = exp(-i pi (m + 1/8)
