@@ -2,6 +2,7 @@
 // follows a few streams by itself, a sweep over a dozen fields waits for each.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace brisance {
@@ -24,6 +25,12 @@ inline void forLines(std::int64_t count, const Fetch& fetch, const Visit& visit)
   }
   for (std::int64_t i = 0; i + lineFloats <= count; i += lineFloats) line(i);
   if (count % lineFloats) line(count - lineFloats);
+}
+
+/// `?:` by bits: of that the compiler may make a branch around what it takes to find `yes`, and no vectors.
+inline float select(bool condition, float yes, float no) {
+  const std::uint32_t mask = condition ? ~std::uint32_t{0} : 0;
+  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(yes) & mask) | (std::bit_cast<std::uint32_t>(no) & ~mask));
 }
 
 /// Asks for a line of each.

@@ -124,10 +124,10 @@ class ScalarSweep {
       const float T = row.temperature.here[i], soot = row.soot.here[i], flame = row.flame.here[i];
       const float movedT = carried(row.temperature, share, c, i), movedSoot = carried(row.soot, share, c, i),
                   movedFlame = carried(row.flame, share, c, i);
-      const float burnt = row.burnRate[i], heated = row.heatRate[i], newT = solid ? T : movedT;
+      const float burnt = row.burnRate[i], heated = row.heatRate[i], newT = select(solid, T, movedT);
       row.newTemperature[i] = newT;
-      row.newSoot[i] = (solid ? soot : movedSoot) + sootPerRate * burnt;
-      row.newFlame[i] = (solid ? flame : movedFlame) * flameKept + dt * burnt;
+      row.newSoot[i] = select(solid, soot, movedSoot) + sootPerRate * burnt;
+      row.newFlame[i] = select(solid, flame, movedFlame) * flameKept + dt * burnt;
       warm |= std::uint32_t{T != ambient} | std::uint32_t{newT != ambient};
       changing |= std::uint32_t{newT > ambient} | std::uint32_t{heated != 0};
     });

@@ -123,9 +123,8 @@ class SpeedSweep {
     const float c = c_, weight = weight_;
     const auto fetch = [&](std::int64_t i) { fetchToRead(i + count, at.s.upper[2]); };  // the next row lies behind
     forLines(count, fetch, [&](std::int64_t i) {
-      const float here = at.s.here[i];
       const float moved = carried(at.s, DonorShares(at.sides, weight, i), c, i) + gained(i);
-      out[i] = open[i] > 0 ? moved : here;
+      out[i] = select(open[i] > 0, moved, at.s.here[i]);
     });
   }
 
