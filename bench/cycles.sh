@@ -84,7 +84,7 @@ echo "All ways of light, $size"
 path="--set render.integrator.type=path --set render.integrator.max_bounces=$bounces
   --set render.volume.smoke_colour=[0,0,0] --set materials.glass.absorption=[0,0,0] --set render.seed="
 rm -f "$folder/table"
-# paths ROW N OPTIONS...: two pictures path_ROW of N x N samples, and their noise.
+# paths ROW N OPTIONS...: two pictures path_ROW of N x N samples (in the mean, if N is not whole), and their noise.
 paths() {
   row=path_$1
   n=$2
@@ -93,6 +93,8 @@ paths() {
   draw "${row}_1" --samples "$n" ${path}2 "$@" >/dev/null
   noise "$row" "$first"
 }
+paths 2_rough 1.41421 --set render.integrator.splits=0 --set render.integrator.faint=0.05
+paths 2 1.41421
 paths 2x2_rough 2 --set render.integrator.splits=0 --set render.integrator.faint=0.05
 paths 2x2 2
 paths 3x3 3

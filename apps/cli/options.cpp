@@ -20,7 +20,7 @@ struct RawOptions {
   RawFractureOptions fracture;
   const CLI::App* fractureCommand = nullptr;
   std::string frames, size, format, profile;
-  int samples = 0;
+  double samples = 0;
   bool overwrite = false, resume = false;
   bool redraws = false;  ///< pictures that are there: the default of `render`
 };
@@ -69,7 +69,7 @@ CLI::Option* skipping(CLI::App* command, RawOptions& raw, const std::string& nam
 
 void addPictureOptions(CLI::App* command, RawOptions& raw) {
   command->add_option("--size", raw.size, "of the pictures, instead of the scene's")->option_text("WxH");
-  command->add_option("--samples", raw.samples, "N x N rays for a pixel, instead of the scene's")
+  command->add_option("--samples", raw.samples, "N x N rays for a pixel, instead of the scene's; 1.5: 2.25 in the mean")
       ->check(CLI::PositiveNumber)
       ->option_text("N");
 }
@@ -189,7 +189,7 @@ void addFarmCommand(CLI::App& app, RawOptions& raw) {
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");
   command->add_option("--size", raw.size, "of the pictures, instead of the scene's")->option_text("WxH");
-  command->add_option("--samples", raw.samples, "N x N rays for a pixel, instead of the scene's")
+  command->add_option("--samples", raw.samples, "N x N rays for a pixel, instead of the scene's; 1.5: 2.25 in the mean")
       ->check(CLI::PositiveNumber)
       ->option_text("N");
   addWorkOptions(command, raw);

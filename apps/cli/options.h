@@ -59,7 +59,7 @@ struct Options {
   std::string pageOf;                          ///< of its page `man`: a command; empty: the program
   std::optional<FrameRange> frames;            ///< absent: all
   std::optional<PictureSize> size;             ///< absent: the scene's
-  std::optional<int> samples;                  ///< absent: the scene's
+  std::optional<double> samples;               ///< absent: the scene's
   std::vector<std::string> overrides;          ///< "key.path=value"
   int threads = 0;                             ///< 0: all cores
   ExistingRun existing = ExistingRun::refuse;  ///< --overwrite, --resume

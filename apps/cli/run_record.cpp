@@ -90,6 +90,7 @@ void RunRecord::addSimulation(const SimulationSummary& summary, double seconds) 
     record["substeps"] = summary.substeps;
     record["courant"] = summary.courant;
     record["divergence"] = summary.divergence;
+    record["fire_went_out"] = summary.fireWentOut;
     record["balances"] = {{"volume", asJson(summary.volume)}, {"heat", asJson(summary.heat)}};
     addSeconds(record["seconds"]["simulate"], summary.stageSeconds);
     addSeconds(record["seconds"]["simulate"], {{"total", seconds}});
@@ -123,6 +124,8 @@ std::string RunRecord::summary() const {
   const json& record = *record_;
   std::string text = fmt::format("{}: {} frames, {:.0f} MB at the peak\n", run_.path().string(),
                                  record.value("frames", 0), record.value("peak_memory_mb", 0.0));
+  if (record.value("fire_went_out", false))
+    text += "fire      went out: only the fuel that was lit has burnt (try finer gas.cells, or more lit)\n";
   for (const char* stage : {"simulate", "render", "encode"})
     if (record["seconds"].contains(stage))
       text += fmt::format("{:<9} {:8.1f} s\n", stage, record["seconds"][stage].value("total", 0.0));

@@ -46,7 +46,8 @@ SceneTree treeOfDictionary(const py::dict& tables, const std::filesystem::path& 
 
 /// What may be asked of a picture; none: as the scene says.
 struct PictureWish {
-  std::optional<int> width, height, samples;
+  std::optional<int> width, height;
+  std::optional<double> samples;
   bool alpha = false;
 };
 /// The picture of a frame, an array of (height, width, 3 or 4).

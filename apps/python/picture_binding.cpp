@@ -18,7 +18,7 @@ using Bytes = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecas
 /// The scene with a picture's measures, checked as --set checks them.
 Scene sceneWith(const SceneHandle& scene, const PictureWish& wish) {
   std::vector<std::string> overrides;
-  const auto say = [&](const char* key, const std::optional<int>& value) {
+  const auto say = [&](const char* key, const auto& value) {
     if (value) overrides.push_back(fmt::format("render.{}={}", key, *value));
   };
   say("width", wish.width);
@@ -88,7 +88,7 @@ void save(const std::filesystem::path& path, const py::array& picture, double ex
 }
 
 py::array render(const std::shared_ptr<SceneHandle>& scene, const std::shared_ptr<Frame>& frame,
-                 std::optional<int> width, std::optional<int> height, std::optional<int> samples, bool alpha) {
+                 std::optional<int> width, std::optional<int> height, std::optional<double> samples, bool alpha) {
   return pictureOf(*scene, *frame, {width, height, samples, alpha});
 }
 

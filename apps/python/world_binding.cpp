@@ -123,7 +123,7 @@ void run(const WorldPointer& world, const py::object& callback, std::optional<in
   }
 }
 
-py::array render(WorldHandle& world, std::optional<int> width, std::optional<int> height, std::optional<int> samples,
+py::array render(WorldHandle& world, std::optional<int> width, std::optional<int> height, std::optional<double> samples,
                  bool alpha) {
   return pictureOf(world.scene(), *world.capture(), {width, height, samples, alpha});
 }

@@ -71,35 +71,23 @@ void BoxPoisson::fromModes(float* plane, const std::uint8_t* tiles, float* lines
   }
 }
 
-/// Divides the spectrum at (i .. i + 15, j) by its eigenvalues and by the n of the three inverse transforms.
-void BoxPoisson::divide(int i, int j, float* lines) const {
+/// Along z: into modes, divided by their eigenvalues and by the n of the three inverse transforms, and back, while the
+/// lines are in the cache.
+void BoxPoisson::solveAlongZ(CellField& field, const std::uint8_t* planes) const {
   const Vec3i n = layout_.cells;
   const float scale = static_cast<float>(1.0 / (double(n.x) * n.y * n.z));
-  const float* alongX = eigenvalueX_.data() + i;
-  runWide([&] {
-    for (int k = 0; k < n.z; ++k) {
-      const float across = eigenvalueY_[j] + eigenvalueZ_[k];
-      float* spectrum = lines + k * lanes;
-#pragma GCC ivdep
-#pragma GCC unroll 1
-      for (int l = 0; l < lanes; ++l) spectrum[l] *= scale / (alongX[l] + across);
-    }
-  });
-  const bool constantMode = singular_ && i == 0 && j == 0;
-  if (constantMode) lines[0] = 0;
-}
-
-/// Along z: into modes, divided, and back, while the lines are in the cache.
-void BoxPoisson::solveAlongZ(CellField& field, const std::uint8_t* planes) const {
-  parallelFor(0, layout_.cells.y, 1, [&](std::int64_t first, std::int64_t last) {
+  parallelFor(0, n.y, 1, [&](std::int64_t first, std::int64_t last) {
     LineScratch scratch(layout_);
-    for (int j = static_cast<int>(first); j < last; ++j)
-      for (int i = 0; i < layout_.cells.x; i += lanes) {
-        const Lines column{&field(i, j, 0), layout_.plane, planes}, lines{scratch.lines.data(), lanes};
-        z_.forward(column, lines, scratch.work.data());
-        divide(i, j, scratch.lines.data());
-        z_.inverse(lines, column, scratch.work.data());
+    std::vector<float> across(n.z);
+    for (int j = static_cast<int>(first); j < last; ++j) {
+      for (int k = 0; k < n.z; ++k) across[k] = eigenvalueY_[j] + eigenvalueZ_[k];
+      for (int i = 0; i < n.x; i += lanes) {
+        const bool constantMode = singular_ && i == 0 && j == 0;
+        z_.filter({&field(i, j, 0), layout_.plane, planes},
+                  {eigenvalueX_.data() + i, across.data(), scale, constantMode}, scratch.lines.data(),
+                  scratch.work.data());
       }
+    }
   });
 }
 

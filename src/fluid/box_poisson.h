@@ -38,7 +38,6 @@ class BoxPoisson {
   void toModes(float* plane, const std::uint8_t* tiles, float* lines, float* work) const;
   void fromModes(float* plane, const std::uint8_t* tiles, float* lines, float* work) const;
   void solveAlongZ(CellField& field, const std::uint8_t* planes) const;
-  void divide(int i, int j, float* lines) const;
 
   CellLayout layout_;
   Faces faces_;

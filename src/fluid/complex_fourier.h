@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace brisance::detail {
@@ -22,6 +23,18 @@ inline Complex conjugate(Complex a) { return {a.re, -a.im}; }
 inline Complex minusI(Complex a, Complex b) { return {a.re + b.im, a.im - b.re}; }
 inline Complex plusI(Complex a, Complex b) { return {a.re - b.im, a.im + b.re}; }
 
+/// What a butterfly takes or leaves: samples `gap` numbers apart.
+struct Spread {
+  float* re;
+  float* im;
+  std::int64_t gap;
+  Complex load(int p, int l) const { return {re[p * gap + l], im[p * gap + l]}; }
+  void store(int p, int l, Complex value) const {
+    re[p * gap + l] = value.re;
+    im[p * gap + l] = value.im;
+  }
+};
+
 /// Real and imaginary parts of lines.
 struct ComplexLines {
   float* re;
@@ -31,7 +44,12 @@ struct ComplexLines {
     re[at] = value.re;
     im[at] = value.im;
   }
-  ComplexLines operator+(std::int64_t samples) const { return {re + samples * lanes, im + samples * lanes}; }
+  /// Samples from `start` on, `gap` apart.
+  template <int radix>
+  Spread spread(int start, int gap) const {
+    const std::int64_t at = static_cast<std::int64_t>(start) * lanes;
+    return {re + at, im + at, static_cast<std::int64_t>(gap) * lanes};
+  }
 };
 
 /// A stage splits transforms of `length` into `radix` shorter ones; twiddles w^(pj) for j < length / radix, p = 1 ..
@@ -46,7 +64,7 @@ struct ComplexFourier {
   std::vector<int> place;  ///< of each frequency in the digit-reversed spectrum
 
   ComplexFourier() = default;
-  explicit ComplexFourier(int size);
+  explicit ComplexFourier(int size);  ///< from 2 on
   /// Whether a size has no prime factor beyond 5.
   static bool takes(int size);
 };
@@ -60,17 +78,16 @@ Complex turned(Complex x, const Complex* twiddles, int p) {
     return x;
 }
 
-/// Transform of `radix` samples that lie `gap` samples apart, in place: turned by the twiddles before it (`first`) or
-/// after it.
-template <int radix, bool first, bool twiddled>
-void butterfly(ComplexLines x, int gap, const Complex* w) {
-  const std::int64_t g = static_cast<std::int64_t>(gap) * lanes;
+/// Transform of `radix` samples, turned by the twiddles before it (`first`) or after it.
+template <int radix, bool first, bool twiddled, class From, class To>
+void butterfly(const From& from, const To& to, const Complex* w) {
 #pragma GCC ivdep
+#pragma GCC unroll 1
   for (int l = 0; l < lanes; ++l) {
-    const auto in = [&](int p) { return p == 0 ? x.load(l) : turned < first && twiddled > (x.load(p * g + l), w, p); };
-    const auto out = [&](int p, Complex y) {
-      x.store(p * g + l, p == 0 ? y : turned < !first && twiddled > (y, w, p));
+    const auto in = [&](int p) {
+      return p == 0 ? from.load(p, l) : turned < first && twiddled > (from.load(p, l), w, p);
     };
+    const auto out = [&](int p, Complex y) { to.store(p, l, p == 0 ? y : turned < !first && twiddled > (y, w, p)); };
     if constexpr (radix == 2) {
       const Complex a = in(0), b = in(1);
       out(0, a + b);
@@ -105,42 +122,66 @@ void butterfly(ComplexLines x, int gap, const Complex* w) {
   }
 }
 
-template <int radix, bool first>
-void runStage(const FourierStage& stage, int size, ComplexLines x) {
+template <int radix, bool first, class From, class To>
+void runStage(const FourierStage& stage, int size, const From& from, const To& to) {
   const int gap = stage.length / radix;
-  for (int start = 0; start < size; start += stage.length) butterfly<radix, first, false>(x + start, gap, nullptr);
+  const auto at = [&](const auto& lines, int start) { return lines.template spread<radix>(start, gap); };
+  for (int start = 0; start < size; start += stage.length)
+    butterfly<radix, first, false>(at(from, start), at(to, start), nullptr);
   for (int j = 1; j < gap; ++j) {
-    Complex w[radix - 1];
-    for (int p = 0; p < radix - 1; ++p) w[p] = stage.twiddles[j * (radix - 1) + p];
-    for (int start = j; start < size; start += stage.length) butterfly<radix, first, true>(x + start, gap, w);
+    const Complex* w = stage.twiddles.data() + j * (radix - 1);
+    for (int start = j; start < size; start += stage.length)
+      butterfly<radix, first, true>(at(from, start), at(to, start), w);
   }
 }
 
-template <bool first>
-void runStage(const FourierStage& stage, int size, ComplexLines x) {
+template <bool first, class From, class To>
+void runStage(const FourierStage& stage, int size, const From& from, const To& to) {
   switch (stage.radix) {
     case 2:
-      return runStage<2, first>(stage, size, x);
+      return runStage<2, first>(stage, size, from, to);
     case 3:
-      return runStage<3, first>(stage, size, x);
+      return runStage<3, first>(stage, size, from, to);
     case 4:
-      return runStage<4, first>(stage, size, x);
+      return runStage<4, first>(stage, size, from, to);
     default:
-      return runStage<5, first>(stage, size, x);
+      return runStage<5, first>(stage, size, from, to);
   }
 }
 
-/// sum x_n exp(-2 pi i n k / size), frequency k at place[k].
-inline void transform(const ComplexFourier& fourier, ComplexLines x) {
-  for (const FourierStage& stage : fourier.stages) runStage<false>(stage, fourier.size, x);
+/// x_k = sum from_n exp(-2 pi i n k / size), frequency k at place[k]. The first stage takes the samples where they are.
+template <class From>
+void transform(const ComplexFourier& fourier, const From& from, ComplexLines x) {
+  const auto& stages = fourier.stages;
+  runStage<false>(stages.front(), fourier.size, from, x);
+  for (std::size_t s = 1; s < stages.size(); ++s) runStage<false>(stages[s], fourier.size, x, x);
 }
 
-/// sum X_k exp(+2 pi i n k / size) of a spectrum with frequency k at place[k]. Exchanging the real and the imaginary
-/// part turns the forward transform into this one.
-inline void transformBack(const ComplexFourier& fourier, ComplexLines x) {
+/// Lines whose real parts are another's imaginary ones.
+template <class To>
+struct Exchanged {
+  const To& lines;
+  template <class Straight>
+  struct Places {
+    Straight straight;
+    void store(int p, int l, Complex value) const { straight.store(p, l, {value.im, value.re}); }
+  };
+  template <int radix>
+  auto spread(int start, int gap) const {
+    const auto places = lines.template spread<radix>(start, gap);
+    return Places<std::remove_const_t<decltype(places)>>{places};
+  }
+};
+
+/// to_n = sum X_k exp(+2 pi i n k / size) of a spectrum with frequency k at place[k], which is lost. Exchanging the
+/// real and the imaginary part turns the forward transform into this one. The last stage leaves the samples where they
+/// are wanted.
+template <class To>
+void transformBack(const ComplexFourier& fourier, ComplexLines x, const To& to) {
+  const auto& stages = fourier.stages;
   const ComplexLines exchanged{x.im, x.re};
-  for (auto stage = fourier.stages.rbegin(); stage != fourier.stages.rend(); ++stage)
-    runStage<true>(*stage, fourier.size, exchanged);
+  for (std::size_t s = stages.size() - 1; s > 0; --s) runStage<true>(stages[s], fourier.size, exchanged, exchanged);
+  runStage<true>(stages.front(), fourier.size, exchanged, Exchanged<To>{to});
 }
 
 }  // namespace brisance::detail

@@ -83,13 +83,17 @@ inline Neighbours neighboursInside(const GhostRows& rows, int j, int k, Rooms& r
           {here + 1, rows.row(j + 1, k, rooms[room + 2]), rows.row(j, k + 1, rooms[room + 3])}};
 }
 
-/// With ghosts. Takes five rooms.
-inline Neighbours neighboursOf(const GhostRows& rows, int j, int k, Rooms& rooms, int room) {
+/// With ghosts, of a row of which there is a copy with ghosts at its ends. Takes four rooms.
+inline Neighbours neighboursOfEnded(const GhostRows& rows, int j, int k, const float* ended, Rooms& rooms, int room) {
   Neighbours s = neighboursInside(rows, j, k, rooms, room);
-  s.here = rows.withEnds(j, k, rooms[room + 4]);
+  s.here = ended;
   s.lower[0] = s.here - 1;
   s.upper[0] = s.here + 1;
   return s;
+}
+/// Likewise, copying it. Takes five rooms.
+inline Neighbours neighboursOf(const GhostRows& rows, int j, int k, Rooms& rooms, int room) {
+  return neighboursOfEnded(rows, j, k, rows.withEnds(j, k, rooms[room + 4]), rooms, room);
 }
 
 inline float upwindWeightOf(const FluidSettings& settings) {

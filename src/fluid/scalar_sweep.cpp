@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/row_lines.h"
 #include "base/row_sum.h"
 #include "base/vector_path.h"
 #include "fluid/cooling.h"
@@ -91,32 +92,46 @@ class ScalarSweep {
 
   template <bool solids>
   void stepRow(const ScalarRow& row, ScalarRoom& room) const {
-    if (move<solids>(row)) heat<solids>(row, room);
-    account<solids>(row, room);
+    const Warmth warmth = move<solids>(row);
+    if (warmth.changes) heat<solids>(row, room);
+    if (warmth.any)
+      account<solids>(row, room);
+    else
+      room.hottest.parts()[0] = std::max(room.hottest.parts()[0], std::abs(ambient_));
   }
 
-  /// All three by the same shares; solid cells keep their temperature. Returns whether anything is heated or cools.
+  /// Of a row, before and after it was carried.
+  struct Warmth {
+    bool any;      ///< whether a cell is not at the ambient temperature: if none is, no heat came or went
+    bool changes;  ///< whether a cell is heated or cools
+  };
+  /// All three by the same shares; solid cells keep their temperature.
   template <bool solids>
-  bool move(const ScalarRow& at) const {
+  Warmth move(const ScalarRow& at) const {
     const ScalarRow row = at;  // which no store changes
     const float c = c_, weight = weight_, dt = dt_, sootPerRate = sootPerRate_, flameKept = flameKept_;
     const float ambient = ambient_;
-    std::uint32_t restless = 0;
     const int count = size_.x;
-#pragma GCC ivdep
-    for (int i = 0; i < count; ++i) {
+    std::uint32_t warm = 0, changing = 0;
+    const auto fetch = [&](std::int64_t i) {
+      i += count;  // the next row lies behind
+      fetchToRead(i, row.temperature.upper[2], row.soot.upper[2], row.flame.upper[2], row.heatRate, row.burnRate);
+      fetchToRead(i, row.sides.lowerFace[0], row.sides.lowerFace[1], row.sides.upperFace[2]);
+    };
+    forLines(count, fetch, [&](std::int64_t i) {
       const DonorShares share(row.sides, weight, i);
       const bool solid = solids && row.inside[i];
       const float T = row.temperature.here[i], soot = row.soot.here[i], flame = row.flame.here[i];
       const float movedT = carried(row.temperature, share, c, i), movedSoot = carried(row.soot, share, c, i),
                   movedFlame = carried(row.flame, share, c, i);
-      const float burnt = row.burnRate[i], newT = solid ? T : movedT;
+      const float burnt = row.burnRate[i], heated = row.heatRate[i], newT = select(solid, T, movedT);
       row.newTemperature[i] = newT;
-      row.newSoot[i] = (solid ? soot : movedSoot) + sootPerRate * burnt;
-      row.newFlame[i] = (solid ? flame : movedFlame) * flameKept + dt * burnt;
-      restless |= newT > ambient || row.heatRate[i] != 0 ? 1u : 0u;
-    }
-    return restless != 0;
+      row.newSoot[i] = select(solid, soot, movedSoot) + sootPerRate * burnt;
+      row.newFlame[i] = select(solid, flame, movedFlame) * flameKept + dt * burnt;
+      warm |= std::uint32_t{T != ambient} | std::uint32_t{newT != ambient};
+      changing |= std::uint32_t{newT > ambient} | std::uint32_t{heated != 0};
+    });
+    return {(warm | changing) != 0, changing != 0};
   }
 
   template <bool solids>

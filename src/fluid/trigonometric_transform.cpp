@@ -4,12 +4,12 @@
 
 #include "base/check.h"
 #include "base/vector_path.h"
+#include "fluid/paired_lines.h"
 
 namespace brisance {
 
 using detail::Complex;
 using detail::ComplexLines;
-using detail::conjugate;
 using detail::lanes;
 
 namespace {
@@ -41,15 +41,6 @@ void copyLanes(const float* from, float sign, float* to) {
   for (int l = 0; l < lanes; ++l) to[l] = sign * from[l];
 }
 
-constexpr float noSamples[lanes] = {};
-
-/// Sample j of the lines, or zeros; the next lines' sample is fetched meanwhile.
-const float* sampleAt(const Lines& lines, int j) {
-  if (lines.present && !lines.present[j]) return noSamples;
-  const float* at = lines.samples + j * lines.stride;
-  __builtin_prefetch(at + lanes);
-  return at;
-}
 }  // namespace
 
 detail::ComplexFourier::ComplexFourier(int size_) : size(size_), place(size_) {
@@ -103,7 +94,7 @@ double modeEigenvalue(AxisEnds ends, int n, int k) {
 }
 
 LineTransform::LineTransform(AxisEnds ends, int n) : ends_(ends), n_(n) {
-  if (n % 2 || !detail::ComplexFourier::takes(n / 2)) {
+  if (n % 2 || n < 4 || !detail::ComplexFourier::takes(n / 2)) {
     prepareDirect();
     return;
   }
@@ -152,91 +143,32 @@ void LineTransform::prepareDirect() {
 ComplexLines LineTransform::halves(float* work) const { return {work, work + n_ / 2 * lanes}; }
 
 void LineTransform::forward(const Lines& in, const Lines& out, float* work) const {
+  if (method_ == Method::realFourier) return realForward(in, out, work);
   runWide([&] {
-    if (method_ == Method::realFourier) return realForward(in, out, work);
     if (method_ == Method::quarterWave) return quarterWave(in, out, work, false);
     direct(in, out, work, forwardMatrix_);
   });
 }
 
 void LineTransform::inverse(const Lines& in, const Lines& out, float* work) const {
+  if (method_ == Method::realFourier) return realInverse(in, out, work);
   runWide([&] {
-    if (method_ == Method::realFourier) return realInverse(in, out, work);
     if (method_ == Method::quarterWave) return quarterWave(in, out, work, true);
     direct(in, out, work, inverseMatrix_);
   });
 }
 
-/// Legend: Z the transform of the pairs v_2m + i v_2m+1; E and O those of v's even and odd samples, V = E + w^k O that
-/// of v; at n/2 - k it is the conjugate of E - w^k O. The cosine and sine parts are +Re and -Im of the rotated V.
-void LineTransform::realForward(const Lines& in, const Lines& out, float* work) const {
-  const ComplexLines Z = halves(work);
-  const int half = n_ / 2;
-  for (int m = 0; m < half; ++m) {
-    copyLanes(sampleAt(in, source_[2 * m]), sign_[2 * m], Z.re + m * lanes);
-    copyLanes(sampleAt(in, source_[2 * m + 1]), sign_[2 * m + 1], Z.im + m * lanes);
-  }
-  transform(fourier_, Z);
-  const auto to = [&](int k) { return out.samples + k * out.stride; };
-  const float middle = rotation_[half].re;
-  float *first = to(0), *last = to(half);
+void LineTransform::filter(const Lines& lines, const ModeFactors& factors, float* modes, float* work) const {
+  if (method_ == Method::realFourier) return realFilter(lines, factors, work);
+  forward(lines, {modes, lanes}, work);
+  runWide([&] {
+    for (int k = 0; k < n_; ++k)
 #pragma GCC ivdep
 #pragma GCC unroll 1
-  for (int l = 0; l < lanes; ++l) {
-    const Complex z = Z.load(l);
-    first[l] = z.re + z.im;
-    last[l] = middle * (z.re - z.im);
-  }
-  for (int k = 1; 2 * k <= half; ++k) {
-    const std::int64_t here = fourier_.place[k] * lanes, there = fourier_.place[half - k] * lanes;
-    const Complex w = split_[k], e = 0.5f * rotation_[k], f = 0.5f * rotation_[half - k];
-    float *a = to(k), *b = to(n_ - k), *c = to(half - k), *d = to(half + k);
-#pragma GCC ivdep
-#pragma GCC unroll 1
-    for (int l = 0; l < lanes; ++l) {
-      const Complex z = Z.load(here + l), y = conjugate(Z.load(there + l));
-      const Complex E = z + y, difference = z - y, O{difference.im, -difference.re}, T = w * O;
-      const Complex V = e * (E + T), U = f * conjugate(E - T);
-      a[l] = V.re;
-      b[l] = -V.im;
-      c[l] = U.re;
-      d[l] = -U.im;
-    }
-  }
-}
-
-/// The same steps backwards; twice E and O are kept, which with the n/2 of transformBack makes the factor n.
-void LineTransform::realInverse(const Lines& in, const Lines& out, float* work) const {
-  const ComplexLines Z = halves(work);
-  const int half = n_ / 2;
-  const auto from = [&](int k) { return in.samples + k * in.stride; };
-  const float middle = 1 / rotation_[half].re;
-  const float *first = from(0), *last = from(half);
-#pragma GCC ivdep
-#pragma GCC unroll 1
-  for (int l = 0; l < lanes; ++l) Z.store(l, {first[l] + middle * last[l], first[l] - middle * last[l]});
-  for (int k = 1; 2 * k <= half; ++k) {
-    const std::int64_t here = fourier_.place[k] * lanes, there = fourier_.place[half - k] * lanes;
-    const Complex w = conjugate(split_[k]), e = conjugate(rotation_[k]), f = conjugate(rotation_[half - k]);
-    const float *a = from(k), *b = from(n_ - k), *c = from(half - k), *d = from(half + k);
-#pragma GCC ivdep
-#pragma GCC unroll 1
-    for (int l = 0; l < lanes; ++l) {
-      const Complex V = e * Complex{a[l], -b[l]}, U = conjugate(f * Complex{c[l], -d[l]});
-      const Complex E = V + U, O = w * (V - U);
-      Z.store(here + l, plusI(E, O));
-      Z.store(there + l, plusI(conjugate(E), conjugate(O)));
-    }
-  }
-  transformBack(fourier_, Z);
-  const auto store = [&](int m, const float* sample) {
-    const int j = source_[m];
-    if (!out.present || out.present[j]) copyLanes(sample, sign_[m], out.samples + j * out.stride);
-  };
-  for (int m = 0; m < half; ++m) {
-    store(2 * m, Z.re + m * lanes);
-    store(2 * m + 1, Z.im + m * lanes);
-  }
+      for (int l = 0; l < lanes; ++l) modes[k * lanes + l] *= factors.scale / (factors.along[l] + factors.across[k]);
+  });
+  if (factors.firstIsZero) modes[0] = 0;
+  inverse({modes, lanes}, lines, work);
 }
 
 /// With t_m = (x_2m + i x_(n-1-2m)) r_m and T its transform, T_k r_k is X_2k - i X_(n-1-2k), r_m = exp(-i pi (m + 1/8)
@@ -245,15 +177,7 @@ void LineTransform::quarterWave(const Lines& in, const Lines& out, float* work, 
   const ComplexLines Z = halves(work);
   const int half = n_ / 2;
   const bool fromEnd = ends_ == AxisEnds::openThenWall;
-  const auto input = [&](int j) { return sampleAt(in, fromEnd && !inverse ? n_ - 1 - j : j); };
-  for (int m = 0; m < half; ++m) {
-    const float *a = input(2 * m), *b = input(n_ - 1 - 2 * m);
-    const Complex r = rotation_[m];
-#pragma GCC ivdep
-#pragma GCC unroll 1
-    for (int l = 0; l < lanes; ++l) Z.store(m * lanes + l, r * Complex{a[l], b[l]});
-  }
-  transform(fourier_, Z);
+  transform(fourier_, detail::QuarterSource{in, rotation_.data(), n_, fromEnd && !inverse}, Z);
   float unwanted[lanes];
   const auto output = [&](int j) {
     const int at = fromEnd && inverse ? n_ - 1 - j : j;
@@ -274,7 +198,7 @@ void LineTransform::quarterWave(const Lines& in, const Lines& out, float* work, 
 }
 
 void LineTransform::direct(const Lines& in, const Lines& out, float* work, const std::vector<float>& matrix) const {
-  for (int j = 0; j < n_; ++j) copyLanes(sampleAt(in, j), 1, work + j * lanes);
+  for (int j = 0; j < n_; ++j) copyLanes(detail::sampleOrZeros(in, j), 1, work + j * lanes);
   for (int k = 0; k < n_; ++k) {
     if (out.present && !out.present[k]) continue;
     float sum[lanes] = {};

@@ -27,6 +27,14 @@ struct Lines {
   const std::uint8_t* present = nullptr;
 };
 
+/// By what the modes of 16 lines are multiplied: mode k of line l by scale / (along[l] + across[k]).
+struct ModeFactors {
+  const float* along;
+  const float* across;
+  float scale;
+  bool firstIsZero = false;  ///< mode 0 of line 0 becomes 0
+};
+
 /// Fast for even n with no prime factor beyond 5; other sizes are summed directly, n^2 operations.
 class LineTransform {
  public:
@@ -40,6 +48,9 @@ class LineTransform {
   void forward(const Lines& in, const Lines& out, float* work) const;
   /// n times the samples whose forward transform is `in`.
   void inverse(const Lines& in, const Lines& out, float* work) const;
+  /// The same bits as forward, into `modes` (of workSize), the modes multiplied, and inverse; but while they are in
+  /// registers where that can be.
+  void filter(const Lines& lines, const ModeFactors& factors, float* modes, float* work) const;
 
  private:
   void prepareRealFourier();
@@ -48,6 +59,9 @@ class LineTransform {
 
   void realForward(const Lines& in, const Lines& out, float* work) const;
   void realInverse(const Lines& in, const Lines& out, float* work) const;
+  void realFilter(const Lines& lines, const ModeFactors& factors, float* work) const;
+  void toSpectrum(const Lines& in, detail::ComplexLines Z) const;
+  void fromSpectrum(detail::ComplexLines Z, const Lines& out) const;
   void quarterWave(const Lines& in, const Lines& out, float* work, bool inverse) const;
   void direct(const Lines& in, const Lines& out, float* work, const std::vector<float>& matrix) const;
   detail::ComplexLines halves(float* work) const;

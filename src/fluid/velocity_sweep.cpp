@@ -1,4 +1,5 @@
 #include "base/parallel.h"
+#include "base/row_lines.h"
 #include "base/vector_path.h"
 #include "fluid/advection.h"
 #include "fluid/donor_rows.h"
@@ -25,19 +26,6 @@ struct Stencil {
     sides.upperPair[axis][0] = upper0;
     sides.upperPair[axis][1] = upper1;
   }
-  Stencil from(int i) const {
-    Stencil moved = *this;
-    moved.s.here += i;
-    for (int axis = 0; axis < 3; ++axis) {
-      moved.s.lower[axis] += i;
-      moved.s.upper[axis] += i;
-      for (int n = 0; n < 2; ++n) {
-        moved.sides.lowerPair[axis][n] += i;
-        moved.sides.upperPair[axis][n] += i;
-      }
-    }
-    return moved;
-  }
 };
 
 /// The old velocity's rows, and what accelerates the new one.
@@ -51,15 +39,17 @@ class SpeedSweep {
         c_(static_cast<float>(dt / settings.cellSize) / (2 * FaceSides::perSpeed)),
         weight_(upwindWeightOf(settings)),
         dt_(dt) {}
-  static constexpr int rooms = 11;
+  static constexpr int rooms = 15;
 
   void plane(int k, Rooms& made) const {
     const Vec3i cells = gas_.temperature.size;
+    EndedRows ended;
     for (int j = 0; j <= cells.y; ++j)
       runWide([&] {
-        if (k < cells.z && j < cells.y) accelerateAlongX(j, k, made);
-        if (k < cells.z) accelerateAlongY(j, k, made);
-        if (j < cells.y) accelerateAlongZ(j, k, made);
+        ended = endedRows(j, k, ended.vUpper, made);
+        if (k < cells.z && j < cells.y) accelerateAlongX(j, k, ended, made);
+        if (k < cells.z) accelerateAlongY(j, k, ended.v, made);
+        if (j < cells.y) accelerateAlongZ(j, k, ended.w, made);
       });
   }
 
@@ -70,41 +60,33 @@ class SpeedSweep {
   }
   float force(int axis) const { return static_cast<float>(dt_ * settings_.force[axis]); }
 
-  /// The faces between the row's cells, which need no ghosts at its ends, and the box's two, which nothing crosses
-  /// where they are walls.
-  void accelerateAlongX(int j, int k, Rooms& made) const {
-    Stencil x{neighboursInside(rows_[0], j, k, made, 0), {}};
-    const float *v = rows_[1].row(j, k, nullptr), *vUpper = rows_[1].row(j + 1, k, nullptr);
-    const float *w = rows_[2].row(j, k, nullptr), *wUpper = rows_[2].row(j, k + 1, nullptr);
-    x.carryItself(0);
-    x.setSides(1, v - 1, v, vUpper - 1, vUpper);
-    x.setSides(2, w - 1, w, wUpper - 1, wUpper);
-    const float* open = openRow(gas_.solid, 0, j, k);
-    float* out = &out_.u(0, j, k);
-    const int n = gas_.temperature.size.x;
-    const float gained = force(0);
-    carry(x.from(1), open + 1, n - 1, out + 1, [=](std::int64_t) { return gained; });
-    for (const int side : {0, 1}) {
-      const int i = side ? n : 0;
-      accelerateEnd(side, j, k, x.from(i), open[i], out[i]);
-    }
-  }
-  void accelerateEnd(int side, int j, int k, Stencil at, float open, float& out) const {
-    out = at.s.here[0];
-    if (!(open > 0)) return;
-    const float u = rows_[0].end(side, j, k), v = rows_[1].end(side, j, k), vUpper = rows_[1].end(side, j + 1, k),
-                w = rows_[2].end(side, j, k), wUpper = rows_[2].end(side, j, k + 1);
-    (side ? at.s.upper[0] : at.s.lower[0]) = &u;
-    at.carryItself(0);
-    at.sides.lowerPair[1][side] = &v;
-    at.sides.upperPair[1][side] = &vUpper;
-    at.sides.lowerPair[2][side] = &w;
-    at.sides.upperPair[2][side] = &wUpper;
-    out = carried(at.s, DonorShares(at.sides, weight_, 0), c_, 0) + force(0);
+  /// Copies with ghosts at their ends of the rows around cells (j, k), of those that there are.
+  struct EndedRows {
+    const float *v = nullptr, *vUpper = nullptr, *w = nullptr, *wUpper = nullptr;
+  };
+  /// `v`: that of row j, made for the row before as its `vUpper`.
+  EndedRows endedRows(int j, int k, const float* v, Rooms& made) const {
+    const Vec3i cells = gas_.temperature.size;
+    const bool inRows = j < cells.y, inPlanes = k < cells.z;
+    EndedRows rows;
+    if (inPlanes) rows.v = j == 0 ? rows_[1].withEnds(0, k, made[11]) : v;
+    if (inPlanes && inRows) rows.vUpper = rows_[1].withEnds(j + 1, k, made[11 + (j + 1) % 2]);
+    if (inRows) rows.w = rows_[2].withEnds(j, k, made[13]);
+    if (inPlanes && inRows) rows.wUpper = rows_[2].withEnds(j, k + 1, made[14]);
+    return rows;
   }
 
-  void accelerateAlongY(int j, int k, Rooms& made) const {
-    Stencil y{neighboursOf(rows_[1], j, k, made, 0), {}};
+  void accelerateAlongX(int j, int k, const EndedRows& ended, Rooms& made) const {
+    Stencil x{neighboursOf(rows_[0], j, k, made, 0), {}};
+    x.carryItself(0);
+    x.setSides(1, ended.v - 1, ended.v, ended.vUpper - 1, ended.vUpper);
+    x.setSides(2, ended.w - 1, ended.w, ended.wUpper - 1, ended.wUpper);
+    const float gained = force(0);
+    accelerate(0, x, j, k, [=](std::int64_t) { return gained; });
+  }
+
+  void accelerateAlongY(int j, int k, const float* v, Rooms& made) const {
+    Stencil y{neighboursOfEnded(rows_[1], j, k, v, made, 0), {}};
     y.carryItself(1);
     const float *u = rows_[0].row(j - 1, k, made[5]), *uNext = rows_[0].row(j, k, made[6]);
     y.setSides(0, u, uNext, u + 1, uNext + 1);
@@ -116,8 +98,8 @@ class SpeedSweep {
     accelerate(1, y, j, k, [=](std::int64_t i) { return gained + lift(i); });
   }
 
-  void accelerateAlongZ(int j, int k, Rooms& made) const {
-    Stencil z{neighboursOf(rows_[2], j, k, made, 0), {}};
+  void accelerateAlongZ(int j, int k, const float* w, Rooms& made) const {
+    Stencil z{neighboursOfEnded(rows_[2], j, k, w, made, 0), {}};
     z.carryItself(2);
     const float *u = rows_[0].row(j, k - 1, made[5]), *uNext = rows_[0].row(j, k, made[6]);
     z.setSides(0, u, uNext, u + 1, uNext + 1);
@@ -130,8 +112,8 @@ class SpeedSweep {
   template <class Gained>
   void accelerate(int axis, const Stencil& stencil, int j, int k, const Gained& gained) const {
     const float* open = openRow(gas_.solid, axis, j, k);
-    float* out = &out_.component(axis)(0, j, k);
-    carry(stencil, open, gas_.temperature.size.x, out, gained);
+    Grid3<float>& out = out_.component(axis);
+    carry(stencil, open, out.size.x, &out(0, j, k), gained);
   }
 
   template <class Gained>
@@ -139,12 +121,11 @@ class SpeedSweep {
     const Stencil at = stencil;  // which no store changes
     const Gained gained = gain;
     const float c = c_, weight = weight_;
-#pragma GCC ivdep
-    for (int i = 0; i < count; ++i) {
-      const float here = at.s.here[i];
+    const auto fetch = [&](std::int64_t i) { fetchToRead(i + count, at.s.upper[2]); };  // the next row lies behind
+    forLines(count, fetch, [&](std::int64_t i) {
       const float moved = carried(at.s, DonorShares(at.sides, weight, i), c, i) + gained(i);
-      out[i] = open[i] > 0 ? moved : here;
-    }
+      out[i] = select(open[i] > 0, moved, at.s.here[i]);
+    });
   }
 
   const FluidState& gas_;

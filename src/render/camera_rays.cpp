@@ -1,14 +1,18 @@
 #include "render/camera_rays.h"
 
+#include <cmath>
+
 #include "render/sampling.h"
 
 namespace brisance {
 namespace {
 
+int subPixelsAcross(const RenderSettings& settings) { return static_cast<int>(std::ceil(settings.samples)); }
+
 /// The camera at the start, and at as many further times of the open shutter as a pixel has samples.
 std::vector<Camera> camerasOf(const RenderSettings& settings, const PictureTime& time) {
   const double open = settings.camera.shutter * time.frameDuration;
-  const int count = open > 0 ? settings.samples * settings.samples : 1;
+  const int across = subPixelsAcross(settings), count = open > 0 ? across * across : 1;
   std::vector<Camera> cameras;
   for (int c = 0; c < count; ++c) {
     const double when = time.filmTime + open * ((c + 0.5) / count - 0.5);
@@ -20,8 +24,8 @@ std::vector<Camera> camerasOf(const RenderSettings& settings, const PictureTime&
 }  // namespace
 
 CameraRays::CameraRays(const RenderSettings& settings, const PictureTime& time, int frame)
-    : samples_(settings.samples),
-      weights_(subPixelWeights(settings.samples)),
+    : samples_(subPixelsAcross(settings)),
+      weights_(subPixelWeights(samples_)),
       cameras_(camerasOf(settings, time)),
       jitter_(settings.seed, Stream::pixelJitter),
       allotment_(jitter_.bits(frame), Stream::pixelJitter),

@@ -24,7 +24,8 @@ struct CameraRay {
   SampleSequence numbers;  ///< for what the ray meets
 };
 
-/// Jittered samples, one in each of n x n sub-pixels (appendix A.1.3), addressed by frame, pixel and sample.
+/// Jittered samples, one in each of n x n sub-pixels (appendix A.1.3), addressed by frame, pixel and sample. Where the
+/// settings' n is not whole, the next larger one.
 class CameraRays {
  public:
   CameraRays(const RenderSettings& settings, const PictureTime& time, int frame);

@@ -87,13 +87,14 @@ class Exposure {
  public:
   Exposure(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise)
       : rays_(rays), follow_(follow), noise_(noise), exposed_{Image(width, height), {}, {}} {
-    if (noise == Noise::measured) exposed_.variance = exposed_.halves[0] = exposed_.halves[1] = Image(width, height);
+    if (noise == Noise::measured) exposed_.variance = Image(width, height);
   }
   int width() const { return exposed_.mean.width; }
   int height() const { return exposed_.mean.height; }
 
   /// One sample of each pixel after the other.
   Exposed even() {
+    if (noise_ == Noise::measured) exposed_.halves[0] = exposed_.halves[1] = exposed_.variance;
     forBlocks(width(), height(), [&](PixelBlock& block) {
       block.samples.clear();
       for (int s = 0; s < rays_.perPixel(); ++s)
@@ -108,15 +109,15 @@ class Exposure {
     return std::move(exposed_);
   }
 
-  /// `drawn` samples for each pixel, then more where they differ more.
-  Exposed byNoise(int drawn) {
+  /// `drawn` samples for each pixel, then more where they differ more, so that they are `mean` in the mean.
+  Exposed byNoise(int drawn, double mean) {
     if (noise_ == Noise::ignored) exposed_.variance = Image(width(), height());
     forBlocks(width(), height(), [&](PixelBlock& block) {
       drawFree(block, [&](int, int) { return Samples{0, drawn}; });
       for (std::size_t n = 0; n < block.pixels.size(); ++n) keep(block.pixels[n], block.sums[n], drawn);
     });
-    const std::vector<int> more =
-        allotSamples(exposed_.mean, exposed_.variance, drawn, rays_.perPixel(), rays_.allotment());
+    if (drawn == 1 && noise_ == Noise::measured) exposed_.variance = varianceAround(exposed_.mean);
+    const std::vector<int> more = allotSamples(exposed_.mean, exposed_.variance, drawn, mean, rays_.allotment());
     const auto moreOf = [&](int x, int y) { return more[static_cast<std::size_t>(y) * width() + x]; };
     forBlocks(width(), height(), [&](PixelBlock& block) {
       drawFree(block, [&](int x, int y) { return Samples{drawn, moreOf(x, y)}; });
@@ -148,8 +149,8 @@ class Exposure {
     }
     draw(
         block, [&](int x, int y, int s) { return rays_.freeRay(x, y, s); },
-        [&](int n, int s) {
-          return Weight{shares[n], s % 2};
+        [&](int n, int) {
+          return Weight{shares[n], 0};
         });
   }
 
@@ -173,10 +174,10 @@ class Exposure {
     const auto [x, y] = pixel;
     exposed_.mean(x, y) = sums.mean();
     if (exposed_.variance.width > 0) exposed_.variance(x, y) = sums.variance(samples);
-    if (noise_ == Noise::ignored) return;
-    for (int half = 0; half < 2; ++half) exposed_.halves[half](x, y) = sums.half(half);
+    for (int half = 0; half < 2; ++half)
+      if (exposed_.halves[half].width > 0) exposed_.halves[half](x, y) = sums.half(half);
   }
-  /// Joins `more` samples to the `drawn` ones that were kept (Chan, Golub & LeVeque 1979). `drawn` is even.
+  /// Joins `more` samples to the `drawn` ones that were kept (Chan, Golub & LeVeque 1979).
   void join(const std::array<int, 2>& pixel, int drawn, const PixelSums& sums, int more) {
     if (more == 0) return;
     const auto [x, y] = pixel;
@@ -186,13 +187,6 @@ class Exposure {
         exposed_.variance(x, y) * (a * (a - 1)) + sums.variance(more) * (b * (b - 1)) + off * off * (a * b / all);
     exposed_.variance(x, y) = spread / (all * (all - 1));
     exposed_.mean(x, y) += off * (b / all);
-    if (noise_ == Noise::ignored) return;
-    for (int half = 0; half < 2; ++half) {
-      const int further = (more + 1 - half) / 2;
-      if (further == 0) continue;
-      Vec3f& kept = exposed_.halves[half](x, y);
-      kept += (sums.half(half) - kept) * (static_cast<float>(further) / static_cast<float>(drawn / 2 + further));
-    }
   }
 
   const CameraRays& rays_;
@@ -203,10 +197,16 @@ class Exposure {
 
 }  // namespace
 
-Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise, Sampling sampling) {
-  Exposure exposure(rays, width, height, follow, noise);
-  const int drawn = std::max(rays.perPixel() / 4 / 2 * 2, 2);  // even, so that both halves have as many
-  return sampling == Sampling::byNoise && drawn < rays.perPixel() ? exposure.byNoise(drawn) : exposure.even();
+Exposed expose(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise) {
+  return Exposure(rays, width, height, follow, noise).even();
+}
+
+Exposed exposeByNoise(const CameraRays& rays, int width, int height, const Follow& follow, Noise noise,
+                      double samples) {
+  // A pixel's two samples tell its noise better than two pixels' samples; of few that leaves too few to share out.
+  constexpr double enoughForTwo = 2.5;
+  const int drawn = samples < enoughForTwo ? 1 : std::max(static_cast<int>(samples / 4), 2);
+  return Exposure(rays, width, height, follow, noise).byNoise(drawn, samples);
 }
 
 }  // namespace brisance

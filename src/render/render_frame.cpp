@@ -48,13 +48,16 @@ struct Subject {
   const StopRequested& stopRequested;
 };
 
-Exposed exposed(const Subject& subject, const Follow& follow, Sampling sampling) {
+Exposed exposed(const Subject& subject, const Follow& follow) {
+  const RenderSettings& settings = subject.settings;
   const auto followUnlessStopped = [&](std::span<CameraRay> rays, std::span<Vec3f> light) {
     if (subject.stopRequested && subject.stopRequested()) throw Interrupted();
     follow(rays, light);
   };
-  return expose(subject.rays, subject.settings.width, subject.settings.height, followUnlessStopped, subject.noise,
-                sampling);
+  if (!samplesGoByNoise(settings))
+    return expose(subject.rays, settings.width, settings.height, followUnlessStopped, subject.noise);
+  return exposeByNoise(subject.rays, settings.width, settings.height, followUnlessStopped, subject.noise,
+                       settings.samples * settings.samples);
 }
 
 Vec3f smokeAlbedo(const RenderSettings& settings) { return min(settings.volume.smokeColour, Vec3f(1, 1, 1)); }
@@ -65,9 +68,7 @@ Exposed drawn(const Subject& subject, const WhittedIntegrator&) {
   if (subject.gas) subject.gas->illuminate(settings.ambientLight, lights);
   const RayWorld world{subject.geometry,    subject.materials,     lights,           subject.gas,
                        subject.environment, settings.ambientLight, settings.maxDepth};
-  return exposed(
-      subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { radiance(world, rays, light); },
-      Sampling::even);
+  return exposed(subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { radiance(world, rays, light); });
 }
 
 /// Fire is no light of the list here: ways are drawn towards it. Where noise is to be taken out, the samples are
@@ -89,9 +90,7 @@ Exposed drawn(const Subject& subject, const PathIntegrator& integrator) {
                         static_cast<float>(settings.volume.anisotropy),
                         integrator,
                         settings.maxDepth};
-  return exposed(
-      subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { pathRadiance(world, rays, light); },
-      integrator.adaptive && !settings.denoise ? Sampling::byNoise : Sampling::even);
+  return exposed(subject, [&](std::span<CameraRay> rays, std::span<Vec3f> light) { pathRadiance(world, rays, light); });
 }
 
 void drawLayers(const Subject& subject, PictureLayers& layers, PictureGuides& guides) {

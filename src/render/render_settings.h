@@ -160,8 +160,8 @@ using Integrator = std::variant<WhittedIntegrator, PathIntegrator>;
 
 struct RenderSettings {
   int width = 480, height = 360;
-  int samples = 2;   ///< n of the n x n sub-pixels
-  int maxDepth = 8;  ///< of reflection and refraction
+  double samples = 2;  ///< n of the n x n samples of a pixel; need not be whole where they go by noise
+  int maxDepth = 8;    ///< of reflection and refraction
   Integrator integrator;
   EnvironmentSettings environment;
   std::uint64_t seed = 1;
@@ -178,5 +178,11 @@ struct RenderSettings {
   FlowSettings flow;
   BitsLook bits;
 };
+
+/// Whether pixels get samples by how much their light varies, instead of each the same.
+inline bool samplesGoByNoise(const RenderSettings& settings) {
+  const auto* paths = std::get_if<PathIntegrator>(&settings.integrator);
+  return paths != nullptr && paths->adaptive && settings.samples > 1 && !settings.denoise;
+}
 
 }  // namespace brisance

@@ -125,9 +125,7 @@ struct IntegratorKeys {
         v,
         {"splits", "", between(0, 8), "mirrors and glass surfaces from the camera on at which both ways are followed"},
         path.splits);
-    visit(v,
-          {"adaptive", "", anyValue,
-           "more samples where light is noisier, in the mean as many; from samples = 2 on, not with denoise"},
+    visit(v, {"adaptive", "", anyValue, "more samples where light is noisier, in the mean as many; not with denoise"},
           path.adaptive);
   }
 };
@@ -214,7 +212,10 @@ void describeRender(KeyVisitor& v, SceneDraft& draft) {
   RenderSettings& render = draft.scene.render;
   visit(v, {"width", "pixels", between(1, 16384), "of the picture"}, render.width);
   visit(v, {"height", "pixels", between(1, 16384), "of the picture"}, render.height);
-  visit(v, {"samples", "", between(1, 64), "n of the n x n samples of a pixel"}, render.samples);
+  visit(v,
+        {"samples", "", between(1, 64),
+         "n of the n x n samples of a pixel; whole, unless they are adaptive: 1.5 stands for 2.25 in the mean"},
+        render.samples);
   v.enter({"integrator", "", anyValue, "whitted: lights, mirrors, glass; path: all ways of light"}, true);
   visitAlternatives(v, integratorNames, render.integrator, IntegratorKeys{});
   v.leave();

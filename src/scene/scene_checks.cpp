@@ -196,6 +196,10 @@ void checkPicture(const Scene& scene, const Places& places) {
     places.refuse("render.denoise", "must be false unless render.integrator is path: the other has no noise of chance");
   if (scene.render.denoise && scene.render.samples < 2)
     places.refuse("render.denoise", "needs render.samples of at least 2: half of them judge the other half");
+  if (scene.render.samples != std::floor(scene.render.samples) && !samplesGoByNoise(scene.render))
+    places.refuse("render.samples",
+                  fmt::format("must be whole unless render.integrator is path, adaptive and without denoise, got {}",
+                              scene.render.samples));
   checkFlow(scene, places);
   for (std::size_t i = 0; i < scene.render.lights.size(); ++i) {
     const auto* sun = std::get_if<SunLight>(&scene.render.lights[i]);

@@ -43,13 +43,26 @@ void advanceFrom(const RunDirectory& run, RunWriter& writer, World& world) {
   }
 }
 
-void summarise(const World& world, SimulationSummary& summary) {
+/// Whether as much gas was made as the fuel gives that was lit at the start, though there was more.
+bool fireWentOut(const ParticleSettings& particles, double gasMade) {
+  double lit = 0, more = 0;
+  for (const Charge& charge : particles.charges) {
+    lit += std::min(charge.ignited, charge.particles);
+    more += std::max(charge.particles - charge.ignited, 0) + charge.emissionRate * charge.emissionTime;
+  }
+  const double ofLit = lit * particles.burning.mass * particles.burning.gasPerMass;
+  constexpr double rounding = 1e-3;
+  return ofLit > 0 && more > 0 && std::abs(gasMade - ofLit) < rounding * ofLit;
+}
+
+void summarise(const World& world, const ParticleSettings& particles, SimulationSummary& summary) {
   const RunTotals& totals = world.totals();
   summary.volume = totals.volume;
   summary.heat = totals.heat;
   summary.courant = totals.courant;
   summary.divergence = totals.divergence;
   summary.substeps = static_cast<int>(totals.substeps);
+  summary.fireWentOut = fireWentOut(particles, totals.volume.in);
 }
 
 constexpr std::size_t keptWhileRunning = 2, keptWhenDone = 1;  // checkpoints
@@ -112,7 +125,7 @@ SimulationSummary simulate(const SimulationSettings& settings, RunDirectory& run
   finishWriting(run, writer, world, summary);
   if (options.progress && !summary.interrupted) options.progress("simulate", last, last);
   summary.frames = run.lastFrame();
-  summarise(world, summary);
+  summarise(world, settings.particles, summary);
   return summary;
 }
 

@@ -20,6 +20,7 @@ struct SimulationSummary {
   Balance volume, heat;  ///< over all frames
   double courant = 0, divergence = 0;
   int substeps = 0;
+  bool fireWentOut = false;  ///< the fuel that was lit at the start has burnt, and lit no other
   std::map<std::string, double> stageSeconds;
 };
 

@@ -125,6 +125,21 @@ TEST(Json, ARunPrintsTheContentOfItsRunJsonAndNothingElse) {
   EXPECT_EQ(outcome.err, "");
 }
 
+// Fuel that the gas hardly heats is not lit by what burns beside it.
+TEST(Json, ARunSaysThatItsFireWentOut) {
+  LongRun l;
+  const auto account = [&](const char* heating) {
+    const std::string asked = std::string("explosion.heating=") + heating;
+    const Outcome outcome =
+        runProgram({"simulate", l.scene, "-o", l.run, "--overwrite", "--frames", "1-12", "--set", asked});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    return std::pair(nlohmann::json::parse(textOf(l.run / "run.json"))["fire_went_out"].get<bool>(),
+                     outcome.out.find("fire      went out: ") != std::string::npos);
+  };
+  EXPECT_EQ(account("75000"), std::pair(false, false));
+  EXPECT_EQ(account("1"), std::pair(true, true));
+}
+
 TEST(Json, ARunGivesAnAccountOfItself) {
   LongRun l;
   const Outcome outcome =

@@ -57,6 +57,12 @@ TEST(SceneErrors, NoiseIsTakenFromPathsOfTwoSamplesOrMore) {
   expectLine(
       "[render]\ndenoise = true\n",
       "s.toml:2: render.denoise: must be false unless render.integrator is path: the other has no noise of chance");
+  for (const char* settings :
+       {"", "integrator = 'path'\ndenoise = true\n", "integrator = { type = 'path', adaptive = false }\n"})
+    expectLine(
+        std::string("[render]\nsamples = 2.5\n") + settings,
+        "s.toml:2: render.samples: must be whole unless render.integrator is path, adaptive and without denoise, "
+        "got 2.5");
   expectLine("[render]\ndenoise = true\nintegrator = 'path'\nsamples = 1\n",
              "s.toml:2: render.denoise: needs render.samples of at least 2: half of them judge the other half");
 }

@@ -153,7 +153,7 @@ class World:
         *,
         width: Optional[int] = None,
         height: Optional[int] = None,
-        samples: Optional[int] = None,
+        samples: Optional[float] = None,
         alpha: bool = False,
     ) -> _Float32: ...
     @property
@@ -233,7 +233,7 @@ def render(
     *,
     width: Optional[int] = None,
     height: Optional[int] = None,
-    samples: Optional[int] = None,
+    samples: Optional[float] = None,
     alpha: bool = False,
 ) -> _Float32: ...
 def develop(picture: ArrayLike, exposure_stops: float = 0.0) -> NDArray[np.uint8]: ...
