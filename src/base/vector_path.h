@@ -37,4 +37,18 @@ void runWide(const Body& body) {
   }
 }
 
+/// Likewise body.operator()<floats>(), for as many floats as the widest vectors of the path hold: where vectors are
+/// named in the source. The bits must not depend on it.
+template <class Body>
+void runWithVectors(const Body& body) {
+  switch (vectorPath()) {
+    case VectorPath::avx512:
+      return detail::runAvx512([&] { body.template operator()<16>(); });
+    case VectorPath::avx2:
+      return detail::runAvx2([&] { body.template operator()<8>(); });
+    case VectorPath::plain:
+      return body.template operator()<4>();
+  }
+}
+
 }  // namespace brisance

@@ -11,25 +11,25 @@ namespace brisance {
 
 namespace {
 
-using blur::rowsAtOnce, blur::vectorFloats, blur::Weights;
+using blur::rowsAtOnce, blur::Weights, blur::widestFloats;
 
-constexpr int block = 4 * vectorFloats;  // what sums along a row are rounded to
+constexpr int block = blur::pieceAlong;  // what sums along a row are rounded to
 constexpr int pieceNumbers = 256;        // of a row, finished at once
 
 constexpr int roundUp(int count, int unit) { return (count + unit - 1) / unit * unit; }
 constexpr int roundDown(int count, int unit) { return count / unit * unit; }
 
 /// Numbers of a row of cells and of one more, with room for whole blocks from any vector on.
-int rowWidth(const BlurTask& task) { return roundUp(task.channels * (task.size.x + 1), vectorFloats) + block; }
+int rowWidth(const BlurTask& task) { return roundUp(task.channels * (task.size.x + 1), widestFloats) + block; }
 
 /// The numbers of some cells, from the start of a vector on.
 struct NumberSpan {
   int first, end;
   NumberSpan(const CellSpan& cells, int channels)
-      : first(roundDown(channels * cells.first, vectorFloats)), end(channels * cells.end) {}
+      : first(roundDown(channels * cells.first, widestFloats)), end(channels * cells.end) {}
 };
 
-constexpr int cellsBefore = vectorFloats;
+constexpr int cellsBefore = widestFloats;
 
 using Rows = std::array<float*, rowsAtOnce>;
 
@@ -47,11 +47,11 @@ class RowFilter {
   void sumAlong(const CellSpan& cells, const float* row, float* sums) const {
     const NumberSpan span(cells, channels_);
     forRadius([&](const auto& weights) {
-      runWide([&] {
+      runWithVectors([&]<int floats>() {
         if (channels_ == 4)
-          blur::sumAlong<4>(row, weights, span.first, span.end, sums);
+          blur::sumAlong<floats, 4>(row, weights, span.first, span.end, sums);
         else
-          blur::sumAlong<1>(row, weights, span.first, span.end, sums);
+          blur::sumAlong<floats, 1>(row, weights, span.first, span.end, sums);
       });
     });
   }
@@ -69,8 +69,9 @@ class RowFilter {
   void sumNeighbours(const CellSpan& cells, const Rows& sums) const {
     const NumberSpan span(cells, channels_);
     forRadius([&](const auto& weights) {
-      runWide(
-          [&] { blur::sumNeighbours<cleared>(rows_.data() + radius_, weights, span.first, span.end, sums.data()); });
+      runWithVectors([&]<int floats>() {
+        blur::sumNeighbours<floats, cleared>(rows_.data() + radius_, weights, span.first, span.end, sums.data());
+      });
     });
   }
   template <class Visit>
@@ -100,7 +101,7 @@ class PaddedLine {
  public:
   explicit PaddedLine(const BlurTask& task)
       : channels_(task.channels),
-        pad_(roundUp(task.channels * task.filter.radius() + 1, vectorFloats)),
+        pad_(roundUp(task.channels * task.filter.radius() + 1, widestFloats)),
         values_(static_cast<std::size_t>(rowWidth(task)) + 2 * pad_, 0.f) {}
   /// Where to write `span` of cells; others are zero.
   float* begin(const CellSpan& span) {
@@ -143,7 +144,7 @@ class PieceRows {
   }
 
  private:
-  int length() const { return before_ + pieceNumbers + vectorFloats; }
+  int length() const { return before_ + pieceNumbers + widestFloats; }
 
   int before_;
   AlignedVector<float> values_;
