@@ -157,7 +157,24 @@ struct FinishedCells {
   alignas(64) float colour[3 * most];
 
   /// Of the first `count` cells of `sums`, and of more up to a whole block.
+  template <int floats>
   void make(const float* sums, int count, float perVolume) {
+    if constexpr (floats == block)
+      makeBlocks(sums, count, perVolume);
+    else
+      makeCells(sums, count, perVolume);
+  }
+
+ private:
+  void makeCells(const float* sums, int count, float perVolume) {
+    for (int n = 0; n < count; ++n) {
+      const float* cell = sums + channels * n;
+      const float mass = cell[0], perMass = mass > 0 ? 1 / mass : 0.0f;
+      density[n] = mass * perVolume;
+      for (int c = 0; c < 3; ++c) colour[3 * n + c] = cell[1 + c] * perMass;
+    }
+  }
+  void makeBlocks(const float* sums, int count, float perVolume) {
     for (int n = 0; n < count; n += block) {
       Vector cells[4];  // four cells each
       for (int v = 0; v < 4; ++v) cells[v] = *reinterpret_cast<const Vector*>(sums + channels * n + block * v);
@@ -173,7 +190,6 @@ struct FinishedCells {
     }
   }
 
- private:
   static void firstOfFours(const Vector (&cells)[4], Vector& mass) {
     const Vector low = __builtin_shufflevector(cells[0], cells[1], 0, 4, 8, 12, 16, 20, 24, 28, -1, -1, -1, -1, -1, -1,
                                                -1, -1),
@@ -218,7 +234,7 @@ struct VolumeRows {
       streamZeros(colour, 3 * count);
     } else {
       FinishedCells some;
-      runWide([&] { some.make(sums + channels * first, count, perVolume); });
+      runWithVectors([&]<int floats>() { some.make<floats>(sums + channels * first, count, perVolume); });
       streamCopy(density, some.density, count);
       streamCopy(colour, some.colour, 3 * count);
     }
