@@ -40,4 +40,11 @@ inline void fetchToRead(std::int64_t i, const Samples*... rows) {
   (__builtin_prefetch(rows + i), ...);
 }
 
+/// Likewise, of lines that will be written.
+template <class... Samples>
+inline void fetchToWrite(std::int64_t i, const Samples*... rows) {
+  const auto fetch = [i](const auto* row) { asm volatile("prefetchw %0" ::"m"(row[i])); };
+  (fetch(rows), ...);
+}
+
 }  // namespace brisance

@@ -62,11 +62,11 @@ inline float carried(const Neighbours& s, const DonorShares& share, float c, std
 class Rooms {
  public:
   Rooms(int length, int count)
-      : width_((length + 2 + pad - 1) / pad * pad + pad), floats_(width_ * static_cast<std::size_t>(count), 0.0f) {}
+      : width_((length + lineFloats - 1) / lineFloats * lineFloats + 2 * lineFloats),
+        floats_(width_ * static_cast<std::size_t>(count), 0.0f) {}
   float* operator[](int n) { return floats_.data() + n * width_; }
 
  private:
-  static constexpr std::int64_t pad = 16;
   std::int64_t width_;
   AlignedVector<float> floats_;
 };
