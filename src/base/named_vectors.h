@@ -7,16 +7,18 @@
 
 namespace brisance {
 
-/// Not for `auto`, which forgets that they need not be aligned.
 template <int floats>
 struct NamedVectors {
-  typedef float Type __attribute__((vector_size(floats * sizeof(float)), aligned(sizeof(float)), may_alias));
-  typedef std::int32_t Bits __attribute__((vector_size(floats * sizeof(float)), aligned(sizeof(float)), may_alias));
-  static const Type& at(const float* numbers) { return *reinterpret_cast<const Type*>(numbers); }
-  static Type& at(float* numbers) { return *reinterpret_cast<Type*>(numbers); }
+  typedef float Type __attribute__((vector_size(floats * sizeof(float))));
+  typedef std::int32_t Bits __attribute__((vector_size(floats * sizeof(float))));
+  /// As they lie anywhere in memory. Not for `auto`, which forgets that they need not be aligned.
+  typedef float Stored __attribute__((vector_size(floats * sizeof(float)), aligned(sizeof(float)), may_alias));
+  typedef std::int32_t StoredBits
+      __attribute__((vector_size(floats * sizeof(float)), aligned(sizeof(float)), may_alias));
 
-  static Bits& bitsAt(std::int32_t* numbers) { return *reinterpret_cast<Bits*>(numbers); }
-
+  static const Stored& at(const float* numbers) { return *reinterpret_cast<const Stored*>(numbers); }
+  static Stored& at(float* numbers) { return *reinterpret_cast<Stored*>(numbers); }
+  static StoredBits& bitsAt(std::int32_t* numbers) { return *reinterpret_cast<StoredBits*>(numbers); }
   static const Bits& bitsOf(const Type& v) { return reinterpret_cast<const Bits&>(v); }
 
   // Results come by reference: how vectors are returned depends on the instruction set.

@@ -7,8 +7,13 @@
 
 #include "base/named_vectors.h"
 #include "base/row_lines.h"
+#include "fluid/fluid_settings.h"
 
 namespace brisance {
+
+inline float upwindWeightOf(const FluidSettings& settings) {
+  return static_cast<float>(std::get<DonorCell>(settings.advection).upwindWeight);
+}
 
 /// Speeds at the faces above a row of samples, those along x from the first sample to the second on. Where two are
 /// given, faces have their sum.

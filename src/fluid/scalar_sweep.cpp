@@ -1,65 +1,17 @@
-#include <algorithm>
-#include <cmath>
-
 #include "base/parallel.h"
-#include "base/row_lines.h"
-#include "base/row_sum.h"
 #include "base/vector_path.h"
 #include "fluid/carried_row.h"
 #include "fluid/cooling.h"
 #include "fluid/donor_cell.h"
-#include "fluid/donor_rows.h"
 #include "fluid/donor_sweep.h"
+#include "fluid/ghost_rows.h"
+#include "fluid/scalar_row.h"
+#include "fluid/solid_rows.h"
 #include "fluid/sweep_strips.h"
 
 namespace brisance {
 
 namespace {
-/// Of the heat above ambient, and the largest temperature; in K, `created` and `outward` in K m/s.
-struct HeatSums {
-  double gained = 0, heated = 0, radiated = 0, created = 0, outward = 0, hottest = 0;
-  void operator+=(const HeatSums& o) {
-    gained += o.gained;
-    heated += o.heated;
-    radiated += o.radiated;
-    created += o.created;
-    outward += o.outward;
-    hottest = std::max(hottest, o.hottest);
-  }
-};
-
-constexpr int fields = 3;  // temperature, soot, flame
-
-/// What one thread needs: rows that are made, what waits for samples, sums.
-struct ScalarRoom {
-  ScalarRoom(int length, int rowsPerStrip)
-      : ended(length, 2 * fields),
-        beyond(length, 3 * fields),
-        planeEnd(length, fields * rowsPerStrip),
-        rowEnd(length, fields),
-        gained(length),
-        heated(length),
-        radiated(length),
-        created(length),
-        hottest(length) {}
-  /// Of a field: what waits along y for its next row, along z for row `row` of the next plane.
-  float* waiting(int field, int axis, int row) { return axis == 1 ? rowEnd[field] : planeEnd[fields * row + field]; }
-
-  Rooms ended, beyond, planeEnd, rowEnd;
-  RowSum gained, heated, radiated, created;
-  RowMax hottest;
-};
-
-/// A row of cells and what is written to it.
-struct ScalarRow {
-  int j, k;
-  const float* temperature;  ///< with ghosts at its ends
-  CellSides sides;
-  const std::uint8_t* inside;  ///< null: no cell is solid
-  const float *heatRate, *burnRate;
-  float *newTemperature, *newSoot, *newFlame;
-};
-
 class ScalarSweep {
  public:
   ScalarSweep(const FluidState& gas, const FluidSettings& settings, const Burning& burning, double dt,
@@ -71,7 +23,7 @@ class ScalarSweep {
               fieldRows(gas.soot, 0, settings.faces), fieldRows(gas.flame, 0, settings.faces)},
         heat_(settings, dt),
         ambient_(static_cast<float>(settings.ambientTemperature)),
-        c_(static_cast<float>(dt / settings.cellSize) / (2 * CellSides::perSpeed)),
+        c_(static_cast<float>(dt / settings.cellSize) / 2),
         weight_(upwindWeightOf(settings)),
         dt_(static_cast<float>(dt)),
         sootPerRate_(static_cast<float>(burning.sootPerMass * dt)),
@@ -127,7 +79,8 @@ class ScalarSweep {
     return {j,
             k,
             endedBefore(0, j, room),
-            {{&m.u(0, j, k), &m.v(0, j, k), &m.w(0, j, k)}, {&m.u(0, j, k) + 1, &m.v(0, j + 1, k), &m.w(0, j, k + 1)}},
+            {&m.u(0, j, k), &m.v(0, j, k), &m.w(0, j, k)},
+            {&m.u(0, j, k) + 1, &m.v(0, j + 1, k), &m.w(0, j, k + 1)},
             solidsOfRow(gas_.solid, j, k),
             &gas_.heatRate(0, j, k),
             &gas_.burnRate(0, j, k),
@@ -154,23 +107,6 @@ class ScalarSweep {
       room.hottest.parts()[0] = std::max(room.hottest.parts()[0], std::abs(ambient_));
   }
 
-  /// Of a row, before and after it was carried.
-  struct Warmth {
-    bool any;      ///< whether a cell is not at the ambient temperature: if none is, no heat came or went
-    bool changes;  ///< whether a cell may be heated or cool
-  };
-  /// Of the cells of each place in a block, bits of which any tells.
-  struct WarmthByPlace {
-    alignas(64) std::int32_t wasWarm[lineFloats] = {}, changes[lineFloats] = {};
-    Warmth ofAll() const {
-      std::int32_t before = 0, after = 0;
-      for (int n = 0; n < lineFloats; ++n) {
-        before |= wasWarm[n];
-        after |= changes[n];
-      }
-      return {(before | after) != 0, after != 0};
-    }
-  };
   /// All three by the same shares; solid cells keep their temperature.
   template <int floats, bool solids>
   Warmth move(const ScalarRow& at, int inStrip, ScalarRoom& room) const {
@@ -183,28 +119,30 @@ class ScalarSweep {
     const auto fetch = [=](std::int64_t i) {
       i += count;  // the next row lies behind
       fetchToRead(i, samples[0].above[2], samples[1].above[2], samples[2].above[2], row.heatRate, row.burnRate);
-      fetchToRead(i, row.sides.lowerFace[0], row.sides.upperFace[1], row.sides.upperFace[2]);
+      fetchToRead(i, row.lowerFace[0], row.upperFace[1], row.upperFace[2]);
       fetchToWrite(i, row.newTemperature, row.newSoot, row.newFlame);
     };
     WarmthByPlace warmth;
-    carryRow<floats>(count,
-                     SpeedsAbove<1>{{{row.sides.upperFace[0]}, {row.sides.upperFace[1]}, {row.sides.upperFace[2]}}},
-                     samples, weight_, c_, fetch, [&, row]<int n>(std::int64_t i, const auto& carried) {
+    carryRow<floats>(count, SpeedsAbove<1>{{{row.upperFace[0]}, {row.upperFace[1]}, {row.upperFace[2]}}}, samples,
+                     weight_, c_, fetch, [&, row]<int n>(std::int64_t i, const auto& carried) {
                        using V = NamedVectors<n>;
                        typename V::Type moved[fields] = {carried[0], carried[1], carried[2]};
                        if constexpr (solids) {
                          typename V::Bits solid;
                          V::whereSet(row.inside + i, solid);
-                         for (int field = 0; field < fields; ++field)
-                           moved[field] = solid ? V::at(samples[field].here + i) : moved[field];
+                         for (int field = 0; field < fields; ++field) {
+                           const typename V::Type here = V::at(samples[field].here + i);
+                           moved[field] = solid ? here : moved[field];
+                         }
                        }
-                       const typename V::Type burnt = V::at(row.burnRate + i), T = V::at(samples[0].here + i);
+                       const typename V::Type burnt = V::at(row.burnRate + i), T = V::at(samples[0].here + i),
+                                              rate = V::at(row.heatRate + i);
                        V::at(row.newTemperature + i) = moved[0];
                        V::at(row.newSoot + i) = moved[1] + sootPerRate * burnt;
                        V::at(row.newFlame + i) = moved[2] * flameKept + dt * burnt;
                        const typename V::Type same = typename V::Type{} + ambient;
                        typename V::Type heated;
-                       V::magnitude(V::at(row.heatRate + i), heated);
+                       V::magnitude(rate, heated);
                        V::bitsAt(warmth.wasWarm) |= V::bitsOf(T) ^ V::bitsOf(same);
                        V::bitsAt(warmth.changes) |= (V::bitsOf(moved[0]) ^ V::bitsOf(same)) | V::bitsOf(heated);
                      });
@@ -234,13 +172,13 @@ class ScalarSweep {
   void account(const ScalarRow& row, ScalarRoom& room) const {
     const float *T = row.temperature, *newT = row.newTemperature, ambient = ambient_;
     const std::uint8_t* inside = row.inside;
-    const CellSides sides = row.sides;
+    const ScalarRow faces = row;  // which no store changes
     double *gained = room.gained.parts(), *created = room.created.parts();
     float* hottest = room.hottest.parts();
     const int count = size_.x;
 #pragma GCC ivdep
     for (int i = 0; i < count; ++i) {
-      const float brought = (T[i] - ambient) * sides.divergence(i), magnitude = std::abs(newT[i]);
+      const float brought = (T[i] - ambient) * faces.divergence(i), magnitude = std::abs(newT[i]);
       gained[i] += static_cast<double>(newT[i] - T[i]);  // 0 in solids
       created[i] += static_cast<double>(solids && inside[i] ? 0 : brought);
       hottest[i] = magnitude > hottest[i] ? magnitude : hottest[i];
@@ -256,18 +194,18 @@ class ScalarSweep {
     const auto through = [&](const float* speed, const float* below, const float* above, int i) {
       return donorFlux(speed[i], below[i] - ambient_, above[i] - ambient_, weight_);
     };
-    sum += through(row.sides.upperFace[0], T, T + 1, n - 1) - through(row.sides.lowerFace[0], T - 1, T, 0);
+    sum += through(row.upperFace[0], T, T + 1, n - 1) - through(row.lowerFace[0], T - 1, T, 0);
     const auto beside = [&](int axis, int step) {
       return rows_[0].row(row.j + (axis == 1 ? step : 0), row.k + (axis == 2 ? step : 0), room.beyond[2 * fields]);
     };
     for (const int axis : {1, 2}) {
       if (place[axis] == 0) {
         const float* below = beside(axis, -1);
-        for (int i = 0; i < n; ++i) sum -= through(row.sides.lowerFace[axis], below, T, i);
+        for (int i = 0; i < n; ++i) sum -= through(row.lowerFace[axis], below, T, i);
       }
       if (place[axis] + 1 == size_[axis]) {
         const float* above = beside(axis, 1);
-        for (int i = 0; i < n; ++i) sum += through(row.sides.upperFace[axis], T, above, i);
+        for (int i = 0; i < n; ++i) sum += through(row.upperFace[axis], T, above, i);
       }
     }
     return sum;

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 
 #include "base/math.h"
-#include "base/parallel.h"
 
 namespace brisance {
 

@@ -1,12 +1,12 @@
 #include "base/parallel.h"
-#include "base/row_lines.h"
 #include "base/vector_path.h"
 #include "fluid/advection.h"
 #include "fluid/carried_row.h"
-#include "fluid/donor_rows.h"
 #include "fluid/donor_sweep.h"
 #include "fluid/forces.h"
+#include "fluid/made_rows.h"
 #include "fluid/row_ring.h"
+#include "fluid/solid_rows.h"
 #include "fluid/sweep_strips.h"
 
 namespace brisance {
@@ -123,8 +123,9 @@ class SpeedSweep {
     carry<floats, component>(at, speeds, samples, [=]<int n>(std::int64_t i, auto& gained) {
       using V = NamedVectors<n>;
       fetchToRead(i + count, lift.above);
+      const typename V::Type below = V::at(lift.below + i), above = V::at(lift.above + i);
       typename V::Type lifted;
-      lift.between(V::at(lift.below + i), V::at(lift.above + i), lifted);
+      lift.between(below, above, lifted);
       gained += force + lifted;
     });
   }
@@ -136,17 +137,18 @@ class SpeedSweep {
     float* to = &out(0, at.j, at.k);
     const std::int64_t count = out.size.x;
     const SamplesAbove fields[1] = {samples};
-    const float* ahead =
-        &gas_.velocity.component(component)(0, 0, 0) + out.index(0, at.j, at.k) + rowsAhead * count + out.stride(2);
-    const auto fetch = [=](std::int64_t i) {  // the next row lies behind
-      fetchToRead(i + 2 * count, ahead);
-      asm volatile("prefetchw %0" ::"m"(to[i + count]));
+    const Grid3<float>& from = gas_.velocity.component(component);
+    const float* copiedLater = &from.values[0] + from.index(0, at.j + rowsAhead + 2, at.k + 1);
+    const auto fetch = [=](std::int64_t i) {
+      fetchToRead(i, copiedLater);
+      fetchToWrite(i + count, to);  // the next row lies behind
     };
     carryRow<floats>(count, speedsAbove, fields, weight_, c_, fetch, [=]<int n>(std::int64_t i, const auto& carried) {
       using V = NamedVectors<n>;
       typename V::Type moved = carried[0];
       gain.template operator()<n>(i, moved);
-      V::at(to + i) = V::at(open + i) > 0 ? moved : V::at(samples.here + i);
+      const typename V::Type share = V::at(open + i), here = V::at(samples.here + i);
+      V::at(to + i) = share > 0 ? moved : here;
     });
   }
 
