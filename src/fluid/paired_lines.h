@@ -7,17 +7,11 @@
 
 namespace brisance::detail {
 
-inline constexpr float noSamples[lanes] = {};
-
-/// Sample j of lines of which all are present; the next lines' sample is fetched meanwhile.
-inline const float* presentSample(const Lines& lines, int j) {
+/// Sample j of the lines; the next lines' sample is fetched meanwhile.
+inline const float* sampleAt(const Lines& lines, int j) {
   const float* at = lines.samples + j * lines.stride;
   __builtin_prefetch(at + lanes);
   return at;
-}
-/// Sample j of the lines, or zeros.
-inline const float* sampleOrZeros(const Lines& lines, int j) {
-  return lines.present && !lines.present[j] ? noSamples : presentSample(lines, j);
 }
 
 /// The samples of a butterfly: their parts, and what both are multiplied by if `flipped`.
@@ -40,48 +34,36 @@ struct Pairing {
   const int* source;
   const float* sign;
 
-  /// `sampleAt`: where sample j is. (Spelt out: what a loop fills does not become registers.)
-  template <class Sample, bool flipped, int... p, class SampleAt>
-  PairedSpread<Sample, sizeof...(p), flipped> spread(int start, int gap, const SampleAt& sampleAt,
+  /// `place`: where sample j is. (Spelt out: what a loop fills does not become registers.)
+  template <class Sample, bool flipped, int... p, class Place>
+  PairedSpread<Sample, sizeof...(p), flipped> spread(int start, int gap, const Place& place,
                                                      std::integer_sequence<int, p...>) const {
     const auto at = [&](int n) { return 2 * (start + n * gap); };
-    return {{sampleAt(source[at(p)])...}, {sampleAt(source[at(p) + 1])...}, {sign[at(p)]...}, {sign[at(p) + 1]...}};
+    return {{place(source[at(p)])...}, {place(source[at(p) + 1])...}, {sign[at(p)]...}, {sign[at(p) + 1]...}};
   }
 };
 
-template <bool sparse, bool flipped>
+template <bool flipped>
 struct PairedSource {
   const Lines& lines;
   Pairing pairing;
   template <int radix>
   auto spread(int start, int gap) const {
     return pairing.spread<const float, flipped>(
-        start, gap, [&](int j) { return sparse ? sampleOrZeros(lines, j) : presentSample(lines, j); },
-        std::make_integer_sequence<int, radix>());
+        start, gap, [&](int j) { return sampleAt(lines, j); }, std::make_integer_sequence<int, radix>());
   }
 };
 
-template <bool sparse, bool flipped>
+template <bool flipped>
 struct PairedSink {
   const Lines& lines;
   Pairing pairing;
-  float* unwanted;  ///< where samples that are not present go
   template <int radix>
   auto spread(int start, int gap) const {
     return pairing.spread<float, flipped>(
-        start, gap, [&](int j) { return sparse && !lines.present[j] ? unwanted : lines.samples + j * lines.stride; },
-        std::make_integer_sequence<int, radix>());
+        start, gap, [&](int j) { return lines.samples + j * lines.stride; }, std::make_integer_sequence<int, radix>());
   }
 };
-
-/// Calls visit<sparse, flipped>().
-template <class Visit>
-void visitKind(bool sparse, bool flipped, const Visit& visit) {
-  if (sparse)
-    flipped ? visit.template operator()<true, true>() : visit.template operator()<true, false>();
-  else
-    flipped ? visit.template operator()<false, true>() : visit.template operator()<false, false>();
-}
 
 /// Sample m of a transform is (x_2m + i x_(n-1-2m)) times rotation[m]; `fromEnd`: x is read backwards.
 struct QuarterSource {
@@ -104,7 +86,7 @@ struct QuarterSource {
  private:
   template <int... p>
   Spread<sizeof...(p)> spread(int start, int gap, std::integer_sequence<int, p...>) const {
-    const auto sample = [&](int j) { return sampleOrZeros(lines, fromEnd ? n - 1 - j : j); };
+    const auto sample = [&](int j) { return sampleAt(lines, fromEnd ? n - 1 - j : j); };
     const auto at = [&](int q) { return start + q * gap; };
     return {{sample(2 * at(p))...}, {sample(n - 1 - 2 * at(p))...}, {rotation[at(p)]...}};
   }

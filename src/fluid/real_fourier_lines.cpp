@@ -36,16 +36,19 @@ struct ModePair {
 }  // namespace
 
 void LineTransform::toSpectrum(const Lines& in, ComplexLines Z) const {
-  detail::visitKind(in.present, ends_ == AxisEnds::open, [&]<bool sparse, bool flipped>() {
-    transform(fourier_, detail::PairedSource<sparse, flipped>{in, {source_.data(), sign_.data()}}, Z);
-  });
+  const detail::Pairing pairing{source_.data(), sign_.data()};
+  if (ends_ == AxisEnds::open)
+    transform(fourier_, detail::PairedSource<true>{in, pairing}, Z);
+  else
+    transform(fourier_, detail::PairedSource<false>{in, pairing}, Z);
 }
 
 void LineTransform::fromSpectrum(ComplexLines Z, const Lines& out) const {
-  float unwanted[lanes];
-  detail::visitKind(out.present, ends_ == AxisEnds::open, [&]<bool sparse, bool flipped>() {
-    transformBack(fourier_, Z, detail::PairedSink<sparse, flipped>{out, {source_.data(), sign_.data()}, unwanted});
-  });
+  const detail::Pairing pairing{source_.data(), sign_.data()};
+  if (ends_ == AxisEnds::open)
+    transformBack(fourier_, Z, detail::PairedSink<true>{out, pairing});
+  else
+    transformBack(fourier_, Z, detail::PairedSink<false>{out, pairing});
 }
 
 void LineTransform::realForward(const Lines& in, const Lines& out, float* work) const {
@@ -105,45 +108,6 @@ void LineTransform::realInverse(const Lines& in, const Lines& out, float* work) 
       }
     }
     fromSpectrum(Z, out);
-  });
-}
-
-void LineTransform::realFilter(const Lines& lines, const ModeFactors& factors, float* work) const {
-  runWide([&] {
-    const ComplexLines Z = halves(work);
-    const int half = n_ / 2;
-    toSpectrum(lines, Z);
-    const float *along = factors.along, *across = factors.across, scale = factors.scale;
-    const float middle = rotation_[half].re, backAtMiddle = 1 / middle;
-    float first[lanes];
-#pragma GCC ivdep
-#pragma GCC unroll 1
-    for (int l = 0; l < lanes; ++l) first[l] = (Z.re[l] + Z.im[l]) * (scale / (along[l] + across[0]));
-    if (factors.firstIsZero) first[0] = 0;
-#pragma GCC ivdep
-#pragma GCC unroll 1
-    for (int l = 0; l < lanes; ++l) {
-      const Complex z = Z.load(l);
-      const float last = backAtMiddle * (middle * (z.re - z.im) * (scale / (along[l] + across[half])));
-      Z.store(l, {first[l] + last, first[l] - last});
-    }
-    for (int k = 1; 2 * k <= half; ++k) {
-      const std::int64_t here = fourier_.place[k] * lanes, there = fourier_.place[half - k] * lanes;
-      const ModePair pair{split_[k], rotation_[k], rotation_[half - k]};
-      const float a = across[k], b = across[n_ - k], c = across[half - k], d = across[half + k];
-#pragma GCC ivdep
-#pragma GCC unroll 1
-      for (int l = 0; l < lanes; ++l) {
-        Complex V, U, zHere, zThere;
-        pair.split(Z.load(here + l), Z.load(there + l), V, U);
-        const float x = along[l];
-        pair.join({V.re * (scale / (x + a)), V.im * (scale / (x + b))},
-                  {U.re * (scale / (x + c)), U.im * (scale / (x + d))}, zHere, zThere);
-        Z.store(here + l, zHere);
-        Z.store(there + l, zThere);
-      }
-    }
-    fromSpectrum(Z, lines);
   });
 }
 

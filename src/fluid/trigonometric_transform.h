@@ -19,20 +19,10 @@ double modeValue(AxisEnds ends, int n, int k, int j);
 /// By which -(second difference) multiplies mode k: 0 .. 4.
 double modeEigenvalue(AxisEnds ends, int n, int k);
 
-/// Samples of 16 lines side by side: sample j of line l at samples[j * stride + l]. Where `present` says no, samples
-/// are zero and are neither read nor written.
+/// Samples of lines side by side, 16 for a transform: sample j of line l at samples[j * stride + l].
 struct Lines {
   float* samples;
   std::int64_t stride;
-  const std::uint8_t* present = nullptr;
-};
-
-/// By what the modes of 16 lines are multiplied: mode k of line l by scale / (along[l] + across[k]).
-struct ModeFactors {
-  const float* along;
-  const float* across;
-  float scale;
-  bool firstIsZero = false;  ///< mode 0 of line 0 becomes 0
 };
 
 /// Fast for even n with no prime factor beyond 5; other sizes are summed directly, n^2 operations.
@@ -48,9 +38,6 @@ class LineTransform {
   void forward(const Lines& in, const Lines& out, float* work) const;
   /// n times the samples whose forward transform is `in`.
   void inverse(const Lines& in, const Lines& out, float* work) const;
-  /// The same bits as forward, into `modes` (of workSize), the modes multiplied, and inverse; but while they are in
-  /// registers where that can be.
-  void filter(const Lines& lines, const ModeFactors& factors, float* modes, float* work) const;
 
  private:
   void prepareRealFourier();
@@ -59,7 +46,6 @@ class LineTransform {
 
   void realForward(const Lines& in, const Lines& out, float* work) const;
   void realInverse(const Lines& in, const Lines& out, float* work) const;
-  void realFilter(const Lines& lines, const ModeFactors& factors, float* work) const;
   void toSpectrum(const Lines& in, detail::ComplexLines Z) const;
   void fromSpectrum(detail::ComplexLines Z, const Lines& out) const;
   void quarterWave(const Lines& in, const Lines& out, float* work, bool inverse) const;
