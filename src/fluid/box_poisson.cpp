@@ -55,11 +55,13 @@ void BoxPoisson::toModes(float* plane, const std::uint8_t* tiles, float* lines, 
     x_.forward({lines, lanes}, {lines, lanes}, work);
     linesToRows(lines, layout_.roundedRow(), row, layout_.row, rows);
   }
-  for (int i = 0; i < layout_.cells.x; i += lanes) y_.forward({plane + i, layout_.row}, {plane + i, layout_.row}, work);
+  for (int i = 0; i < layout_.cells.x; i += lanes)
+    y_.forward({plane + i, layout_.row, true}, {plane + i, layout_.row}, work);
 }
 
 void BoxPoisson::fromModes(float* plane, const std::uint8_t* tiles, float* lines, float* work) const {
-  for (int i = 0; i < layout_.cells.x; i += lanes) y_.inverse({plane + i, layout_.row}, {plane + i, layout_.row}, work);
+  for (int i = 0; i < layout_.cells.x; i += lanes)
+    y_.inverse({plane + i, layout_.row, true}, {plane + i, layout_.row}, work);
   for (int j = 0; j < layout_.cells.y; j += lanes) {
     if (tiles && !tiles[j / lanes]) continue;
     const int rows = std::min(lanes, layout_.cells.y - j);

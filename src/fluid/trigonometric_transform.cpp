@@ -105,19 +105,17 @@ LineTransform::LineTransform(AxisEnds ends, int n) : ends_(ends), n_(n) {
     prepareRealFourier();
 }
 
-/// The cosine transform of x is the real Fourier transform of x's even samples followed by its odd ones backwards
-/// (Makhoul 1980); the sine transform is the cosine transform of x with every other sample's sign changed.
 void LineTransform::prepareRealFourier() {
   method_ = Method::realFourier;
-  const bool periodic = ends_ == AxisEnds::periodic;
-  for (int m = 0; m < n_; ++m) {
-    source_.push_back(periodic ? m : 2 * m < n_ ? 2 * m : 2 * (n_ - 1 - m) + 1);
-    sign_.push_back(ends_ == AxisEnds::open && source_.back() % 2 ? -1.0f : 1.0f);
+  const int half = n_ / 2;
+  const auto rotation = [&](int k) { return ends_ == AxisEnds::periodic ? Complex{1, 0} : turn(-pi * k / (2.0 * n_)); };
+  for (int k = 1; 2 * k <= half; ++k) {
+    const Complex w = turn(-2 * pi * k / n_), e = rotation(k), f = rotation(half - k);
+    const std::int64_t here = fourier_.place[k] * lanes, there = fourier_.place[half - k] * lanes;
+    splitting_.push_back({w, 0.5f * e, 0.5f * f, here, there});
+    joining_.push_back({w, e, f, here, there});
   }
-  for (int k = 0; k <= n_ / 2; ++k) {
-    split_.push_back(turn(-2 * pi * k / n_));
-    rotation_.push_back(periodic ? Complex{1, 0} : turn(-pi * k / (2.0 * n_)));
-  }
+  middle_ = rotation(half).re;
 }
 
 void LineTransform::prepareQuarterWave() {
