@@ -25,7 +25,7 @@ struct LineScratch {
   explicit LineScratch(const CellLayout& layout)
       : lines(longest(layout) * lanes, 0.0f), work(longest(layout) * lanes, 0.0f) {}
   static std::size_t longest(const CellLayout& layout) {
-    return static_cast<std::size_t>(std::max({layout.roundedRow(), layout.cells.y, layout.cells.z}));
+    return static_cast<std::size_t>(std::max(layout.roundedRow(), layout.cells.y));
   }
 };
 }  // namespace
@@ -37,8 +37,7 @@ BoxPoisson::BoxPoisson(const Vec3i& cells, const Faces& faces)
       y_(axisEnds(faces[2], faces[3]), cells.y),
       z_(axisEnds(faces[4], faces[5]), cells.z),
       eigenvalueX_(layout_.roundedRow(), 1.0f),
-      eigenvalueY_(eigenvalues(axisEnds(faces[2], faces[3]), cells.y)),
-      eigenvalueZ_(eigenvalues(axisEnds(faces[4], faces[5]), cells.z)) {
+      eigenvalueY_(eigenvalues(axisEnds(faces[2], faces[3]), cells.y)) {
   const std::vector<float> alongX = eigenvalues(axisEnds(faces[0], faces[1]), cells.x);
   std::copy(alongX.begin(), alongX.end(), eigenvalueX_.begin());
   singular_ = true;
@@ -56,11 +55,13 @@ void BoxPoisson::toModes(float* plane, const std::uint8_t* tiles, float* lines, 
     x_.forward({lines, lanes}, {lines, lanes}, work);
     linesToRows(lines, layout_.roundedRow(), row, layout_.row, rows);
   }
-  for (int i = 0; i < layout_.cells.x; i += lanes) y_.forward({plane + i, layout_.row}, {plane + i, layout_.row}, work);
+  for (int i = 0; i < layout_.cells.x; i += lanes)
+    y_.forward({plane + i, layout_.row, true}, {plane + i, layout_.row}, work);
 }
 
 void BoxPoisson::fromModes(float* plane, const std::uint8_t* tiles, float* lines, float* work) const {
-  for (int i = 0; i < layout_.cells.x; i += lanes) y_.inverse({plane + i, layout_.row}, {plane + i, layout_.row}, work);
+  for (int i = 0; i < layout_.cells.x; i += lanes)
+    y_.inverse({plane + i, layout_.row, true}, {plane + i, layout_.row}, work);
   for (int j = 0; j < layout_.cells.y; j += lanes) {
     if (tiles && !tiles[j / lanes]) continue;
     const int rows = std::min(lanes, layout_.cells.y - j);
@@ -71,22 +72,17 @@ void BoxPoisson::fromModes(float* plane, const std::uint8_t* tiles, float* lines
   }
 }
 
-/// Along z: into modes, divided by their eigenvalues and by the n of the three inverse transforms, and back, while the
-/// lines are in the cache.
+/// Along z; divided by the n of the two inverse transforms.
 void BoxPoisson::solveAlongZ(CellField& field, const std::uint8_t* planes) const {
   const Vec3i n = layout_.cells;
-  const float scale = static_cast<float>(1.0 / (double(n.x) * n.y * n.z));
+  const float scale = static_cast<float>(1.0 / (double(n.x) * n.y));
   parallelFor(0, n.y, 1, [&](std::int64_t first, std::int64_t last) {
-    LineScratch scratch(layout_);
-    std::vector<float> across(n.z);
+    thread_local LineElimination::Scratch scratch;
+    AlignedFloats lambda(layout_.roundedRow());
     for (int j = static_cast<int>(first); j < last; ++j) {
-      for (int k = 0; k < n.z; ++k) across[k] = eigenvalueY_[j] + eigenvalueZ_[k];
-      for (int i = 0; i < n.x; i += lanes) {
-        const bool constantMode = singular_ && i == 0 && j == 0;
-        z_.filter({&field(i, j, 0), layout_.plane, planes},
-                  {eigenvalueX_.data() + i, across.data(), scale, constantMode}, scratch.lines.data(),
-                  scratch.work.data());
-      }
+      for (int i = 0; i < layout_.roundedRow(); ++i) lambda[i] = eigenvalueX_[i] + eigenvalueY_[j];
+      z_.solve({&field(0, j, 0), layout_.plane, planes},
+               {lambda.data(), scale, layout_.roundedRow(), singular_ && j == 0}, scratch);
     }
   });
 }

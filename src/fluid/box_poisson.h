@@ -1,10 +1,12 @@
-// Poisson's equation in a box without solids, solved directly: h^2 (-div grad) x = b is diagonal in the modes of
-// trigonometric_transform.h (Swarztrauber 1977), its eigenvalues those of the seven-point operator itself.
+// Poisson's equation in a box without solids, solved directly: h^2 (-div grad) x = b falls apart into equations along
+// z, one for each pair of the modes of trigonometric_transform.h along x and y, and these are solved by elimination
+// (Hockney 1965; Swarztrauber 1977). The eigenvalues are those of the seven-point operator itself.
 #pragma once
 
 #include <functional>
 
 #include "fluid/cell_field.h"
+#include "fluid/line_elimination.h"
 #include "fluid/trigonometric_transform.h"
 
 namespace brisance {
@@ -41,9 +43,10 @@ class BoxPoisson {
 
   CellLayout layout_;
   Faces faces_;
-  LineTransform x_, y_, z_;
+  LineTransform x_, y_;
+  LineElimination z_;
   AlignedFloats eigenvalueX_;  // up to the rounded row
-  std::vector<float> eigenvalueY_, eigenvalueZ_;
+  std::vector<float> eigenvalueY_;
   bool singular_;
 };
 

@@ -7,81 +7,67 @@
 
 namespace brisance::detail {
 
-inline constexpr float noSamples[lanes] = {};
-
-/// Sample j of lines of which all are present; the next lines' sample is fetched meanwhile.
-inline const float* presentSample(const Lines& lines, int j) {
-  const float* at = lines.samples + j * lines.stride;
-  __builtin_prefetch(at + lanes);
+/// Sample j of the lines.
+inline float* sampleAt(const Lines& lines, int j) {
+  float* at = lines.samples + j * lines.stride;
+  if (lines.nextFollow) __builtin_prefetch(at + lanes);
   return at;
 }
-/// Sample j of the lines, or zeros.
-inline const float* sampleOrZeros(const Lines& lines, int j) {
-  return lines.present && !lines.present[j] ? noSamples : presentSample(lines, j);
-}
 
-/// The samples of a butterfly: their parts, and what both are multiplied by if `flipped`.
-template <class Sample, int radix, bool flipped>
+/// How the samples x of a line become those v of a real Fourier transform. around: v = x. walls: x's even samples
+/// followed by its odd ones backwards, of which v's transform makes the cosine transform (Makhoul 1980). open: the same
+/// with the odd ones' signs changed, which makes it the sine transform.
+enum class Pairing { around, walls, open };
+
+/// The samples of a butterfly whose parts are v_2m and v_(2m+1), m = start + p gap. Their addresses follow from p where
+/// `radix` is even, so that little is left to do for each butterfly. (Spelt out: what a loop fills does not become
+/// registers.)
+template <Pairing pairing, int radix, class Sample>
 struct PairedSpread {
+  static constexpr bool even = radix % 2 == 0;
   Sample *re[radix], *im[radix];
-  float signRe[radix], signIm[radix];
-  Complex load(int p, int l) const {
-    return flipped ? Complex{signRe[p] * re[p][l], signIm[p] * im[p][l]} : Complex{re[p][l], im[p][l]};
-  }
+  float signRe[radix], signIm[radix];  ///< in use where `radix` is odd
+
+  Complex load(int p, int l) const { return withSign(p, {re[p][l], im[p][l]}); }
   void store(int p, int l, Complex value) const {
-    re[p][l] = flipped ? signRe[p] * value.re : value.re;
-    im[p][l] = flipped ? signIm[p] * value.im : value.im;
+    const Complex x = withSign(p, value);
+    re[p][l] = x.re;
+    im[p][l] = x.im;
+  }
+  Complex withSign(int p, Complex value) const {
+    if constexpr (pairing != Pairing::open) return value;
+    if constexpr (even) return p < radix / 2 ? value : Complex{-value.re, -value.im};
+    return {signRe[p] * value.re, signIm[p] * value.im};
   }
 };
 
-/// Sample m of a transform has the samples of a line numbered source[2 m] and source[2 m + 1], times their signs, as
-/// its parts.
-struct Pairing {
-  const int* source;
-  const float* sign;
-
-  /// `sampleAt`: where sample j is. (Spelt out: what a loop fills does not become registers.)
-  template <class Sample, bool flipped, int... p, class SampleAt>
-  PairedSpread<Sample, sizeof...(p), flipped> spread(int start, int gap, const SampleAt& sampleAt,
-                                                     std::integer_sequence<int, p...>) const {
-    const auto at = [&](int n) { return 2 * (start + n * gap); };
-    return {{sampleAt(source[at(p)])...}, {sampleAt(source[at(p) + 1])...}, {sign[at(p)]...}, {sign[at(p) + 1]...}};
-  }
-};
-
-template <bool sparse, bool flipped>
-struct PairedSource {
+/// Lines of 2 `size` samples as complex ones of `size`.
+template <Pairing pairing, class Sample>
+struct PairedLines {
   const Lines& lines;
-  Pairing pairing;
+  int size;
+
   template <int radix>
   auto spread(int start, int gap) const {
-    return pairing.spread<const float, flipped>(
-        start, gap, [&](int j) { return sparse ? sampleOrZeros(lines, j) : presentSample(lines, j); },
-        std::make_integer_sequence<int, radix>());
+    return spread<radix>(start, gap, std::make_integer_sequence<int, radix>());
+  }
+
+ private:
+  template <int radix, int... p>
+  PairedSpread<pairing, radix, Sample> spread(int start, int gap, std::integer_sequence<int, p...>) const {
+    const auto v = [&](int q) { return 2 * (start + q * gap); };
+    const auto odd = [&](int q, int number) { return radix % 2 == 0 ? q >= radix / 2 : number >= size; };
+    const auto sample = [&](int number, bool isOdd) {
+      const int j = pairing == Pairing::around ? number : isOdd ? 4 * size - 1 - 2 * number : 2 * number;
+      return sampleAt(lines, j);
+    };
+    const auto sign = [](bool isOdd) { return isOdd ? -1.0f : 1.0f; };
+    return {{sample(v(p), odd(p, v(p)))...},
+            {sample(v(p) + 1, odd(p, v(p) + 1))...},
+            {sign(odd(p, v(p)))...},
+            {sign(odd(p, v(p) + 1))...}};
   }
 };
-
-template <bool sparse, bool flipped>
-struct PairedSink {
-  const Lines& lines;
-  Pairing pairing;
-  float* unwanted;  ///< where samples that are not present go
-  template <int radix>
-  auto spread(int start, int gap) const {
-    return pairing.spread<float, flipped>(
-        start, gap, [&](int j) { return sparse && !lines.present[j] ? unwanted : lines.samples + j * lines.stride; },
-        std::make_integer_sequence<int, radix>());
-  }
-};
-
-/// Calls visit<sparse, flipped>().
-template <class Visit>
-void visitKind(bool sparse, bool flipped, const Visit& visit) {
-  if (sparse)
-    flipped ? visit.template operator()<true, true>() : visit.template operator()<true, false>();
-  else
-    flipped ? visit.template operator()<false, true>() : visit.template operator()<false, false>();
-}
 
 /// Sample m of a transform is (x_2m + i x_(n-1-2m)) times rotation[m]; `fromEnd`: x is read backwards.
 struct QuarterSource {
@@ -104,7 +90,7 @@ struct QuarterSource {
  private:
   template <int... p>
   Spread<sizeof...(p)> spread(int start, int gap, std::integer_sequence<int, p...>) const {
-    const auto sample = [&](int j) { return sampleOrZeros(lines, fromEnd ? n - 1 - j : j); };
+    const auto sample = [&](int j) { return sampleAt(lines, fromEnd ? n - 1 - j : j); };
     const auto at = [&](int q) { return start + q * gap; };
     return {{sample(2 * at(p))...}, {sample(n - 1 - 2 * at(p))...}, {rotation[at(p)]...}};
   }

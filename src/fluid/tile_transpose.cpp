@@ -22,21 +22,50 @@ struct Tile {
 // wide transposition says so itself, where other loops leave it to runWide.
 using Vector [[gnu::vector_size(64)]] = float;
 
-/// Exchanges bit `distance` of the row number with that of the column number.
-template <int distance, std::size_t... lane>
-[[gnu::target("avx512f"), gnu::always_inline]] inline void exchange(Vector& a, Vector& b,
-                                                                    std::index_sequence<lane...>) {
-  const Vector low = __builtin_shufflevector(a, b, (lane & distance ? tile + lane - distance : lane)...);
-  const Vector high = __builtin_shufflevector(a, b, (lane & distance ? tile + lane : lane + distance)...);
-  a = low;
-  b = high;
+constexpr int block = 4;  // what one part of a vector holds; to stay within parts costs half as much as to cross them
+template <class Pick, std::size_t... lane>
+[[gnu::target("avx512f"), gnu::always_inline]] inline Vector pick(const Vector& a, const Vector& b, Pick,
+                                                                  std::index_sequence<lane...>) {
+  return __builtin_shufflevector(a, b, Pick::from(lane)...);
 }
+template <class Pick>
+[[gnu::target("avx512f"), gnu::always_inline]] inline Vector pick(const Vector& a, const Vector& b) {
+  return pick(a, b, Pick(), std::make_index_sequence<tile>());
+}
+/// In each block the lower (half 0) or upper numbers of a and b, taken in turns, by one (run 1) or by two (run 2).
+template <int run, int half>
+struct InTurns {
+  static constexpr int from(int lane) {
+    const int place = lane % block, pair = place / run;
+    return (lane - place) + (pair % 2 ? tile : 0) + half * 2 + (run == 1 ? place / 2 : place % 2);
+  }
+};
+/// Every other block of a, from the first or second on, and then of b.
+template <int half>
+struct EveryOther {
+  static constexpr int from(int lane) {
+    const int number = lane / block;
+    return (number / 2 ? tile : 0) + (2 * (number % 2) + half) * block + lane % block;
+  }
+};
 
-template <int distance>
-[[gnu::target("avx512f"), gnu::always_inline]] inline void exchangeAll(Vector (&rows)[tile]) {
-#pragma GCC unroll 16
-  for (int r = 0; r < tile; ++r)
-    if (!(r & distance)) exchange<distance>(rows[r], rows[r + distance], std::make_index_sequence<tile>());
+/// Number c of row r, all rows of a group of four, to number r of row c, in each block.
+[[gnu::target("avx512f"), gnu::always_inline]] inline void transposeBlocks(Vector* rows) {
+  const Vector a = pick<InTurns<1, 0>>(rows[0], rows[1]), b = pick<InTurns<1, 1>>(rows[0], rows[1]);
+  const Vector c = pick<InTurns<1, 0>>(rows[2], rows[3]), d = pick<InTurns<1, 1>>(rows[2], rows[3]);
+  rows[0] = pick<InTurns<2, 0>>(a, c);
+  rows[1] = pick<InTurns<2, 1>>(a, c);
+  rows[2] = pick<InTurns<2, 0>>(b, d);
+  rows[3] = pick<InTurns<2, 1>>(b, d);
+}
+/// Block c of row r to block r of row c, of rows four apart.
+[[gnu::target("avx512f"), gnu::always_inline]] inline void exchangeBlocks(Vector* rows) {
+  const Vector a = pick<EveryOther<0>>(rows[0], rows[4]), b = pick<EveryOther<1>>(rows[0], rows[4]);
+  const Vector c = pick<EveryOther<0>>(rows[8], rows[12]), d = pick<EveryOther<1>>(rows[8], rows[12]);
+  rows[0] = pick<EveryOther<0>>(a, c);
+  rows[4] = pick<EveryOther<0>>(b, d);
+  rows[8] = pick<EveryOther<1>>(a, c);
+  rows[12] = pick<EveryOther<1>>(b, d);
 }
 
 [[gnu::target("avx512f")]] void transposeWide(const float* from, std::int64_t fromStride, float* to,
@@ -44,10 +73,10 @@ template <int distance>
   Vector rows[tile];
 #pragma GCC unroll 16
   for (int r = 0; r < tile; ++r) std::memcpy(&rows[r], from + r * fromStride, sizeof(Vector));
-  exchangeAll<8>(rows);
-  exchangeAll<4>(rows);
-  exchangeAll<2>(rows);
-  exchangeAll<1>(rows);
+#pragma GCC unroll 4
+  for (int r = 0; r < tile; r += block) transposeBlocks(rows + r);
+#pragma GCC unroll 4
+  for (int r = 0; r < block; ++r) exchangeBlocks(rows + r);
 #pragma GCC unroll 16
   for (int r = 0; r < tile; ++r) std::memcpy(to + r * toStride, &rows[r], sizeof(Vector));
 }
@@ -74,6 +103,7 @@ void transpose(const float* from, std::int64_t fromStride, float* to, std::int64
 void rowsToLines(const float* rows, std::int64_t rowStride, int rowCount, int roundedLength, float* lines) {
   for (int i = 0; i < roundedLength; i += tile) {
     if (rowCount >= tile) {
+      for (int r = tile; r < 2 * tile; ++r) __builtin_prefetch(rows + r * rowStride + i);
       transpose(rows + i, rowStride, lines + i * tile, tile);
       continue;
     }

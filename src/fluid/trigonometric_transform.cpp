@@ -105,19 +105,17 @@ LineTransform::LineTransform(AxisEnds ends, int n) : ends_(ends), n_(n) {
     prepareRealFourier();
 }
 
-/// The cosine transform of x is the real Fourier transform of x's even samples followed by its odd ones backwards
-/// (Makhoul 1980); the sine transform is the cosine transform of x with every other sample's sign changed.
 void LineTransform::prepareRealFourier() {
   method_ = Method::realFourier;
-  const bool periodic = ends_ == AxisEnds::periodic;
-  for (int m = 0; m < n_; ++m) {
-    source_.push_back(periodic ? m : 2 * m < n_ ? 2 * m : 2 * (n_ - 1 - m) + 1);
-    sign_.push_back(ends_ == AxisEnds::open && source_.back() % 2 ? -1.0f : 1.0f);
+  const int half = n_ / 2;
+  const auto rotation = [&](int k) { return ends_ == AxisEnds::periodic ? Complex{1, 0} : turn(-pi * k / (2.0 * n_)); };
+  for (int k = 1; 2 * k <= half; ++k) {
+    const Complex w = turn(-2 * pi * k / n_), e = rotation(k), f = rotation(half - k);
+    const std::int64_t here = fourier_.place[k] * lanes, there = fourier_.place[half - k] * lanes;
+    splitting_.push_back({w, 0.5f * e, 0.5f * f, here, there});
+    joining_.push_back({w, e, f, here, there});
   }
-  for (int k = 0; k <= n_ / 2; ++k) {
-    split_.push_back(turn(-2 * pi * k / n_));
-    rotation_.push_back(periodic ? Complex{1, 0} : turn(-pi * k / (2.0 * n_)));
-  }
+  middle_ = rotation(half).re;
 }
 
 void LineTransform::prepareQuarterWave() {
@@ -158,19 +156,6 @@ void LineTransform::inverse(const Lines& in, const Lines& out, float* work) cons
   });
 }
 
-void LineTransform::filter(const Lines& lines, const ModeFactors& factors, float* modes, float* work) const {
-  if (method_ == Method::realFourier) return realFilter(lines, factors, work);
-  forward(lines, {modes, lanes}, work);
-  runWide([&] {
-    for (int k = 0; k < n_; ++k)
-#pragma GCC ivdep
-#pragma GCC unroll 1
-      for (int l = 0; l < lanes; ++l) modes[k * lanes + l] *= factors.scale / (factors.along[l] + factors.across[k]);
-  });
-  if (factors.firstIsZero) modes[0] = 0;
-  inverse({modes, lanes}, lines, work);
-}
-
 /// With t_m = (x_2m + i x_(n-1-2m)) r_m and T its transform, T_k r_k is X_2k - i X_(n-1-2k), r_m = exp(-i pi (m + 1/8)
 /// / n). Applied twice it gives n/2 times x. Seen from the other end where the open face comes first.
 void LineTransform::quarterWave(const Lines& in, const Lines& out, float* work, bool inverse) const {
@@ -178,11 +163,7 @@ void LineTransform::quarterWave(const Lines& in, const Lines& out, float* work, 
   const int half = n_ / 2;
   const bool fromEnd = ends_ == AxisEnds::openThenWall;
   transform(fourier_, detail::QuarterSource{in, rotation_.data(), n_, fromEnd && !inverse}, Z);
-  float unwanted[lanes];
-  const auto output = [&](int j) {
-    const int at = fromEnd && inverse ? n_ - 1 - j : j;
-    return !out.present || out.present[at] ? out.samples + at * out.stride : unwanted;
-  };
+  const auto output = [&](int j) { return out.samples + (fromEnd && inverse ? n_ - 1 - j : j) * out.stride; };
   for (int k = 0; k < half; ++k) {
     float *a = output(2 * k), *b = output(n_ - 1 - 2 * k);
     const Complex r = (inverse ? 2.0f : 1.0f) * rotation_[k];
@@ -198,9 +179,8 @@ void LineTransform::quarterWave(const Lines& in, const Lines& out, float* work, 
 }
 
 void LineTransform::direct(const Lines& in, const Lines& out, float* work, const std::vector<float>& matrix) const {
-  for (int j = 0; j < n_; ++j) copyLanes(detail::sampleOrZeros(in, j), 1, work + j * lanes);
+  for (int j = 0; j < n_; ++j) copyLanes(detail::sampleAt(in, j), 1, work + j * lanes);
   for (int k = 0; k < n_; ++k) {
-    if (out.present && !out.present[k]) continue;
     float sum[lanes] = {};
     for (int j = 0; j < n_; ++j) {
       const float factor = matrix[k * n_ + j];

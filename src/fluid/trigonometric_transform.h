@@ -19,20 +19,20 @@ double modeValue(AxisEnds ends, int n, int k, int j);
 /// By which -(second difference) multiplies mode k: 0 .. 4.
 double modeEigenvalue(AxisEnds ends, int n, int k);
 
-/// Samples of 16 lines side by side: sample j of line l at samples[j * stride + l]. Where `present` says no, samples
-/// are zero and are neither read nor written.
+namespace detail {
+/// How modes k and n/2 - k of a real Fourier transform follow from the complex one of half the size: w = exp(-2 pi i k
+/// / n), the rotations e of mode k and f of n/2 - k, and where the spectrum has both.
+struct ModePair {
+  Complex w, e, f;
+  std::int64_t here, there;
+};
+}  // namespace detail
+
+/// Samples of lines side by side, 16 for a transform: sample j of line l at samples[j * stride + l].
 struct Lines {
   float* samples;
   std::int64_t stride;
-  const std::uint8_t* present = nullptr;
-};
-
-/// By what the modes of 16 lines are multiplied: mode k of line l by scale / (along[l] + across[k]).
-struct ModeFactors {
-  const float* along;
-  const float* across;
-  float scale;
-  bool firstIsZero = false;  ///< mode 0 of line 0 becomes 0
+  bool nextFollow = false;  ///< the 16 lines beside them are the next to be transformed: they are fetched meanwhile
 };
 
 /// Fast for even n with no prime factor beyond 5; other sizes are summed directly, n^2 operations.
@@ -48,9 +48,6 @@ class LineTransform {
   void forward(const Lines& in, const Lines& out, float* work) const;
   /// n times the samples whose forward transform is `in`.
   void inverse(const Lines& in, const Lines& out, float* work) const;
-  /// The same bits as forward, into `modes` (of workSize), the modes multiplied, and inverse; but while they are in
-  /// registers where that can be.
-  void filter(const Lines& lines, const ModeFactors& factors, float* modes, float* work) const;
 
  private:
   void prepareRealFourier();
@@ -59,7 +56,6 @@ class LineTransform {
 
   void realForward(const Lines& in, const Lines& out, float* work) const;
   void realInverse(const Lines& in, const Lines& out, float* work) const;
-  void realFilter(const Lines& lines, const ModeFactors& factors, float* work) const;
   void toSpectrum(const Lines& in, detail::ComplexLines Z) const;
   void fromSpectrum(detail::ComplexLines Z, const Lines& out) const;
   void quarterWave(const Lines& in, const Lines& out, float* work, bool inverse) const;
@@ -70,12 +66,11 @@ class LineTransform {
   AxisEnds ends_;
   int n_;
   Method method_;
-  detail::ComplexFourier fourier_;         // of size n / 2
-  std::vector<int> source_;                // realFourier: which sample is m-th in the real Fourier transform
-  std::vector<float> sign_;                // realFourier: and its sign there
-  std::vector<detail::Complex> split_;     // realFourier: exp(-2 pi i k / n)
-  std::vector<detail::Complex> rotation_;  // realFourier: exp(-i pi k / 2n) or 1; quarterWave: exp(-i pi (k + 1/8) / n)
-  std::vector<float> forwardMatrix_, inverseMatrix_;  // direct: n x n
+  detail::ComplexFourier fourier_;                     // of size n / 2
+  std::vector<detail::ModePair> splitting_, joining_;  // realFourier: for k = 1 .. n / 4
+  float middle_ = 1;                                   // realFourier: the rotation of mode n / 2
+  std::vector<detail::Complex> rotation_;              // quarterWave: exp(-i pi (k + 1/8) / n)
+  std::vector<float> forwardMatrix_, inverseMatrix_;   // direct: n x n
 };
 
 }  // namespace brisance

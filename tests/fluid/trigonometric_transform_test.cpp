@@ -75,42 +75,6 @@ TEST(LineTransform, ModesAreTheEigenvectorsOfTheSecondDifference) {
         }
 }
 
-TEST(LineTransform, AbsentSamplesAreZeroAndStayUntouched) {
-  for (const AxisEnds ends : allEnds)
-    for (const int n : {7, 12}) {
-      const LineTransform transform(ends, n);
-      AlignedFloats full = randomLines(n), sparse = full, a(full.size()), b(full.size()), work(transform.workSize());
-      std::vector<std::uint8_t> present(n);
-      for (int j = 0; j < n; ++j) present[j] = j % 3 == 1;
-      for (int j = 0; j < n; ++j)
-        if (!present[j]) std::fill_n(&full[j * lanes], lanes, 0.0f);
-      transform.forward({full.data(), lanes}, {a.data(), lanes}, work.data());
-      transform.forward({sparse.data(), lanes, present.data()}, {b.data(), lanes}, work.data());
-      EXPECT_EQ(a, b);
-      AlignedFloats back = a, some(full.size(), -7.0f);
-      transform.inverse({a.data(), lanes}, {back.data(), lanes}, work.data());
-      transform.inverse({a.data(), lanes}, {some.data(), lanes, present.data()}, work.data());
-      for (int at = 0; at < n * lanes; ++at) EXPECT_EQ(some[at], present[at / lanes] ? back[at] : -7.0f);
-    }
-}
-
-TEST(LineTransform, FilteringGivesTheBitsOfItsThreeSteps) {
-  for (const AxisEnds ends : allEnds)
-    for (const int n : {2, 4, 7, 12, 30, 128}) {
-      const LineTransform transform(ends, n);
-      const AlignedFloats along = randomLines(1);
-      std::vector<float> across(n);
-      for (int k = 0; k < n; ++k) across[k] = static_cast<float>(3 + modeEigenvalue(ends, n, k));
-      AlignedFloats steps = randomLines(n), once = steps, modes(transform.workSize()), work(transform.workSize());
-      transform.forward({steps.data(), lanes}, {steps.data(), lanes}, work.data());
-      for (int at = 0; at < n * lanes; ++at) steps[at] *= 0.7f / (along[at % lanes] + across[at / lanes]);
-      steps[0] = 0;
-      transform.inverse({steps.data(), lanes}, {steps.data(), lanes}, work.data());
-      transform.filter({once.data(), lanes}, {along.data(), across.data(), 0.7f, true}, modes.data(), work.data());
-      EXPECT_EQ(steps, once) << n;
-    }
-}
-
 TEST(LineTransform, EveryVectorWidthGivesTheSameBits) {
   for (const AxisEnds ends : allEnds)
     for (const int n : {7, 30, 64, 120, 128}) {
@@ -122,10 +86,6 @@ TEST(LineTransform, EveryVectorWidthGivesTheSameBits) {
         transform.forward({lines.data(), lanes}, {lines.data(), lanes}, work.data());
         results.push_back(lines);
         transform.inverse({lines.data(), lanes}, {lines.data(), lanes}, work.data());
-        results.back().insert(results.back().end(), lines.begin(), lines.end());
-        const AlignedFloats along(lanes, 0.5f), across(n, 1.0f);
-        AlignedFloats modes(transform.workSize());
-        transform.filter({lines.data(), lanes}, {along.data(), across.data(), 1.0f}, modes.data(), work.data());
         results.back().insert(results.back().end(), lines.begin(), lines.end());
       }
       EXPECT_EQ(results[0], results[1]);
