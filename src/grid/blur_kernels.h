@@ -31,30 +31,37 @@ struct Weights {
   int radius() const { return fixedRadius > 0 ? fixedRadius : anyRadius; }
 };
 
-/// Filtered sums of rows 0 .. 3 over rows[-radius] .. rows[radius + 3], of the pieces of numbers from `first` until
-/// `end`. The rows at a distance t below and above each are those at t - 1 of its neighbours, so that two are loaded
-/// for four sums. Where `cleared`, the first four of the rows become zero.
+/// Filtered sums of rows 0 .. 3 over rows[-radius] .. rows[radius + 3], of a vector of numbers from `at` on. The rows
+/// at a distance t below and above each are those at t - 1 of its neighbours, so that two are loaded for four sums.
+/// Where `cleared`, the first four of the rows become zero.
+template <int floats, bool cleared, int fixedRadius>
+inline void sumFour(float* const* rows, const Weights<fixedRadius>& filter, int at,
+                    typename Vectors<floats>::Type (&sum)[rowsAtOnce]) {
+  using V = Vectors<floats>;
+  typename V::Type below[rowsAtOnce], above[rowsAtOnce];
+  for (int q = 0; q < rowsAtOnce; ++q) {
+    below[q] = above[q] = V::at(rows[q] + at);
+    sum[q] = below[q] * filter.weights[0];
+  }
+  for (int t = 1; t <= filter.radius(); ++t) {
+    for (int q = rowsAtOnce - 1; q > 0; --q) below[q] = below[q - 1];
+    for (int q = 0; q < rowsAtOnce - 1; ++q) above[q] = above[q + 1];
+    below[0] = V::at(rows[-t] + at);
+    above[rowsAtOnce - 1] = V::at(rows[rowsAtOnce - 1 + t] + at);
+    for (int q = 0; q < rowsAtOnce; ++q) sum[q] += (below[q] + above[q]) * filter.weights[t];
+  }
+  for (int q = 0; cleared && q < rowsAtOnce; ++q) V::at(rows[q - filter.radius()] + at) = typename V::Type{};
+}
+
+/// The same of the pieces of numbers from `first` until `end`.
 template <int floats, bool cleared, int fixedRadius>
 inline void sumNeighbours(float* const* rows, const Weights<fixedRadius>& filter, int first, int end,
                           float* const* sums) {
   using V = Vectors<floats>;
   for (int at = first; at < endOfPieces(first, end, widestFloats); at += floats) {
-    typename V::Type below[rowsAtOnce], above[rowsAtOnce], sum[rowsAtOnce];
-    for (int q = 0; q < rowsAtOnce; ++q) {
-      below[q] = above[q] = V::at(rows[q] + at);
-      sum[q] = below[q] * filter.weights[0];
-    }
-    for (int t = 1; t <= filter.radius(); ++t) {
-      for (int q = rowsAtOnce - 1; q > 0; --q) below[q] = below[q - 1];
-      for (int q = 0; q < rowsAtOnce - 1; ++q) above[q] = above[q + 1];
-      below[0] = V::at(rows[-t] + at);
-      above[rowsAtOnce - 1] = V::at(rows[rowsAtOnce - 1 + t] + at);
-      for (int q = 0; q < rowsAtOnce; ++q) sum[q] += (below[q] + above[q]) * filter.weights[t];
-    }
-    for (int q = 0; q < rowsAtOnce; ++q) {
-      V::at(sums[q] + at) = sum[q];
-      if (cleared) V::at(rows[q - filter.radius()] + at) = typename V::Type{};
-    }
+    typename V::Type sum[rowsAtOnce];
+    sumFour<floats, cleared>(rows, filter, at, sum);
+    for (int q = 0; q < rowsAtOnce; ++q) V::at(sums[q] + at) = sum[q];
   }
 }
 
@@ -76,26 +83,43 @@ inline void addPair(const Widest (&around)[3], float weight, Widest& sum) {
   sum += (left + right) * weight;
 }
 
-/// Filtered sums along a row of cells with so many channels, of the pieces of numbers from `first` until `end`. Each
-/// vector is loaded once, and shifted in registers.
-template <int channels, int... t>
-inline void sumAlongShifted(const float* row, const float* weights, int first, int end, float* sums,
-                            std::integer_sequence<int, t...>) {
-  using V = Vectors<widestFloats>;
-  Widest around[3] = {{}, V::at(row + first - widestFloats), V::at(row + first)};
+/// Whether vectors are so wide, and filters so short, that sums along a row are made by shifting vectors in registers.
+/// Narrower vectors take longer to shift than to load.
+template <int floats, int fixedRadius>
+constexpr bool shiftsVectors = fixedRadius > 0 && floats == widestFloats;
+
+/// Sums of four neighbouring rows, as sumNeighbours makes them and clears what it reads, summed along the rows, whose
+/// cells have so many channels, before they leave the registers. Sums of rows before `first` are taken to be zero.
+template <int channels, int fixedRadius, int... t>
+inline void sumBothWaysShifted(float* const* rows, const Weights<fixedRadius>& filter, int first, int end,
+                               float* const* sums, std::integer_sequence<int, t...>) {
+  static_assert(channels * fixedRadius <= widestFloats);
+  Widest around[rowsAtOnce][3] = {}, next[rowsAtOnce];
+  sumFour<widestFloats, true>(rows, filter, first, next);
   for (int at = first; at < end; at += widestFloats) {
-    around[0] = around[1];
-    around[1] = around[2];
-    around[2] = V::at(row + at + widestFloats);
-    Widest sum = around[1] * weights[0];
-    (addPair<channels*(t + 1)>(around, weights[t + 1], sum), ...);
-    V::at(sums + at) = sum;
+    for (int q = 0; q < rowsAtOnce; ++q) {
+      around[q][0] = around[q][1];
+      around[q][1] = next[q];
+    }
+    sumFour<widestFloats, true>(rows, filter, at + widestFloats, next);
+    for (int q = 0; q < rowsAtOnce; ++q) {
+      around[q][2] = next[q];
+      Widest sum = around[q][1] * filter.weights[0];
+      (addPair<channels*(t + 1)>(around[q], filter.weights[t + 1], sum), ...);
+      Vectors<widestFloats>::at(sums[q] + at) = sum;
+    }
   }
 }
+template <int channels, int fixedRadius>
+inline void sumBothWaysShifted(float* const* rows, const Weights<fixedRadius>& filter, int first, int end,
+                               float* const* sums) {
+  sumBothWaysShifted<channels>(rows, filter, first, end, sums, std::make_integer_sequence<int, fixedRadius>());
+}
 
-/// The same, each vector loaded from where it lies.
+/// Filtered sums along a row of cells with so many channels, of the pieces of numbers from `first` until `end`, each
+/// vector loaded from where it lies.
 template <int floats, int channels, int fixedRadius>
-inline void sumAlongLoaded(const float* row, const Weights<fixedRadius>& filter, int first, int end, float* sums) {
+inline void sumAlong(const float* row, const Weights<fixedRadius>& filter, int first, int end, float* sums) {
   using V = Vectors<floats>;
   for (int at = first; at < endOfPieces(first, end, pieceAlong); at += vectorsAlong * floats) {
     typename V::Type sum[vectorsAlong];
@@ -106,17 +130,6 @@ inline void sumAlongLoaded(const float* row, const Weights<fixedRadius>& filter,
         sum[v] += (V::at(left + v * floats) + V::at(right + v * floats)) * filter.weights[t];
     }
     for (int v = 0; v < vectorsAlong; ++v) V::at(sums + at + v * floats) = sum[v];
-  }
-}
-
-/// Narrower vectors take longer to shift than to load.
-template <int floats, int channels, int fixedRadius>
-inline void sumAlong(const float* row, const Weights<fixedRadius>& filter, int first, int end, float* sums) {
-  if constexpr (fixedRadius > 0 && floats == widestFloats) {
-    static_assert(channels * fixedRadius <= widestFloats);
-    sumAlongShifted<channels>(row, filter.weights, first, end, sums, std::make_integer_sequence<int, fixedRadius>());
-  } else {
-    sumAlongLoaded<floats, channels>(row, filter, first, end, sums);
   }
 }
 
