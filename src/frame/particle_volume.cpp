@@ -41,8 +41,8 @@ struct DrawnPoints {
     const int count = static_cast<int>(end - first);
     float mass[sortRun];
     look.weigh(first, count, mass);
-    int lowest = settings.size.x, highest = -1;
-    runWide([&] {
+    CellSpan reached;
+    runWide([&, count, rows] {
       const ShareRun share = shares(first, count);
       std::int32_t outside[sortRun];
       for (int n = 0; n < count; ++n) outside[n] = !(mass[n] > 0);
@@ -55,15 +55,18 @@ struct DrawnPoints {
           outside[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= last)};
         }
       }
-      const int rowsPerLayer = settings.size.y;
+      const int rowsPerLayer = settings.size.y, cellsPerRow = settings.size.x;
+      int lowest = cellsPerRow, highest = -1;
 #pragma GCC ivdep
-      for (int n = 0; n < count; ++n) rows[n] = outside[n] ? -1 : share.lower[1][n] + rowsPerLayer * share.lower[2][n];
       for (int n = 0; n < count; ++n) {
-        lowest = std::min(lowest, rows[n] < 0 ? lowest : share.lower[0][n]);
-        highest = std::max(highest, rows[n] < 0 ? highest : share.lower[0][n]);
+        const std::int32_t x = share.lower[0][n], row = share.lower[1][n] + rowsPerLayer * share.lower[2][n];
+        rows[n] = outside[n] ? -1 : row;
+        lowest = std::min(lowest, outside[n] ? cellsPerRow : x);
+        highest = std::max(highest, outside[n] ? -1 : x);
       }
+      reached = {lowest, highest + 1};
     });
-    return {lowest, highest + 1};
+    return reached;
   }
   void make(std::int64_t first, std::int64_t end, Point* points) const {
     const int count = static_cast<int>(end - first);

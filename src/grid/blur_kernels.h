@@ -72,15 +72,20 @@ template <int shift, int... n>
 inline void shiftInto(Widest& result, const Widest& first, const Widest& second, std::integer_sequence<int, n...>) {
   result = __builtin_shufflevector(first, second, (n + shift)...);
 }
+template <int shift>
+inline void shiftInto(Widest& result, const Widest& first, const Widest& second) {
+  shiftInto<shift>(result, first, second, std::make_integer_sequence<int, widestFloats>());
+}
 
-/// Adds what lies `distance` numbers to the left and right of a vector's numbers.
+/// Adds what lies `distance` numbers to the left and right of the numbers in `here`, a vector of a row. `left` is what
+/// lies to the left of them, and then of the next vector's: with four numbers a cell, some of it lies to the right of
+/// these.
 template <int distance>
-inline void addPair(const Widest (&around)[3], float weight, Widest& sum) {
-  constexpr auto numbers = std::make_integer_sequence<int, widestFloats>();
-  Widest left, right;
-  shiftInto<widestFloats - distance>(left, around[0], around[1], numbers);
-  shiftInto<distance>(right, around[1], around[2], numbers);
+inline void addPair(Widest& left, const Widest& here, const Widest& next, float weight, Widest& sum) {
+  Widest right;
+  shiftInto<distance>(right, here, next);
   sum += (left + right) * weight;
+  shiftInto<widestFloats - distance>(left, here, next);
 }
 
 /// Whether vectors are so wide, and filters so short, that sums along a row are made by shifting vectors in registers.
@@ -94,18 +99,15 @@ template <int channels, int fixedRadius, int... t>
 inline void sumBothWaysShifted(float* const* rows, const Weights<fixedRadius>& filter, int first, int end,
                                float* const* sums, std::integer_sequence<int, t...>) {
   static_assert(channels * fixedRadius <= widestFloats);
-  Widest around[rowsAtOnce][3] = {}, next[rowsAtOnce];
+  Widest left[rowsAtOnce][fixedRadius], here[rowsAtOnce], next[rowsAtOnce];
   sumFour<widestFloats, true>(rows, filter, first, next);
+  for (int q = 0; q < rowsAtOnce; ++q) (shiftInto<widestFloats - channels*(t + 1)>(left[q][t], Widest{}, next[q]), ...);
   for (int at = first; at < end; at += widestFloats) {
-    for (int q = 0; q < rowsAtOnce; ++q) {
-      around[q][0] = around[q][1];
-      around[q][1] = next[q];
-    }
+    for (int q = 0; q < rowsAtOnce; ++q) here[q] = next[q];
     sumFour<widestFloats, true>(rows, filter, at + widestFloats, next);
     for (int q = 0; q < rowsAtOnce; ++q) {
-      around[q][2] = next[q];
-      Widest sum = around[q][1] * filter.weights[0];
-      (addPair<channels*(t + 1)>(around[q], filter.weights[t + 1], sum), ...);
+      Widest sum = here[q] * filter.weights[0];
+      (addPair<channels*(t + 1)>(left[q][t], here[q], next[q], filter.weights[t + 1], sum), ...);
       Vectors<widestFloats>::at(sums[q] + at) = sum;
     }
   }
