@@ -73,9 +73,14 @@ template <int n>
   for (int v = 0; v < 3; ++v) _mm512_stream_ps(colour + cellsPerLine * v, __m512(lines.colour[v]));
 }
 
+/// Cells between the start of the line and this one.
+int cellsBefore(const float* density) {
+  return static_cast<int>(reinterpret_cast<std::uintptr_t>(density) / sizeof(float) % cellsPerLine);
+}
+
 int cellsUntilLine(const float* density, int count) {
-  const auto beyond = static_cast<int>(reinterpret_cast<std::uintptr_t>(density) / sizeof(float) % cellsPerLine);
-  return beyond == 0 ? 0 : std::min(count, cellsPerLine - beyond);
+  const int before = cellsBefore(density);
+  return before == 0 ? 0 : std::min(count, cellsPerLine - before);
 }
 
 [[gnu::target("avx512f")]] void finishWide(const float* sums, int count, float perVolume, float* density,
@@ -116,6 +121,14 @@ void finishCells(const float* sums, int count, float perVolume, float* density, 
   CHECK(count <= mostFinishedCells, "{} cells at once", count);
   if (vectorPath() == VectorPath::avx512) return finishWide(sums, count, perVolume, density, colour);
   finishNarrow(sums, count, perVolume, density, colour);
+}
+
+void fetchLastLines(const float* densityEnd, const float* colourEnd) {
+  constexpr int toWrite = 1;
+  const int cells = cellsBefore(densityEnd);
+  if (cells == 0) return;
+  __builtin_prefetch(densityEnd - cells, toWrite);
+  for (int n = 0; n < 3 * cells; n += cellsPerLine) __builtin_prefetch(colourEnd - 3 * cells + n, toWrite);
 }
 
 }  // namespace brisance

@@ -13,4 +13,8 @@ constexpr int mostFinishedCells = 256;  ///< at once
 /// vectors.
 void finishCells(const float* sums, int count, float perVolume, float* density, float* colour);
 
+/// Asks for the lines in which cells end that do not fill them, to be told while others are finished: stores of parts
+/// of lines wait for the rest, and all stores after them.
+void fetchLastLines(const float* densityEnd, const float* colourEnd);
+
 }  // namespace brisance

@@ -166,6 +166,7 @@ struct VolumeRows {
     const int first = wholeLines(piece.first), count = wholeLines(piece.end) - first;
     float* density = volume.density.values.data() + row + first;
     float* colour = &volume.colour.values.data()[row + first].x;
+    if (piece.first == 0) fetchLastLines(density + volume.density.size.x, colour + 3 * volume.density.size.x);
     if (filled.end <= first || filled.first >= first + count) {
       streamZeros(density, count);
       streamZeros(colour, 3 * count);
