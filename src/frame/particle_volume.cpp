@@ -59,7 +59,7 @@ struct DrawnPoints {
       int lowest = cellsPerRow, highest = -1;
 #pragma GCC ivdep
       for (int n = 0; n < count; ++n) {
-        const std::int32_t x = share.lower[0][n], row = share.lower[1][n] + rowsPerLayer * share.lower[2][n];
+        const std::int32_t x = share.lower[0][n], row = share.rowOf(n, rowsPerLayer);
         rows[n] = outside[n] ? -1 : row;
         lowest = std::min(lowest, outside[n] ? cellsPerRow : x);
         highest = std::max(highest, outside[n] ? -1 : x);
