@@ -1,6 +1,6 @@
 // The donor-cell step of an explosion in two sweeps over memory: one for all scalars with what heats, cools and burns
 // them, one for the velocity with what accelerates it. What advection.h, temperature.h and forces.h do one after the
-// other, while the rows at hand are in the nearest cache.
+// other, while the rows at hand are in the processor's caches.
 #pragma once
 
 #include "base/report.h"

@@ -12,7 +12,16 @@ void addForces(FluidState& gas, const FluidSettings& settings, double dt);
 /// of the nearest cells at the box's faces, or around a periodic box.
 struct Lift {
   Lift(const Grid3<float>& temperature, const FluidSettings& settings, double dt, int j, int k);
-  float operator()(std::int64_t i) const { return perKelvin * (0.5f * (below[i] + above[i]) - ambient); }
+  float operator()(std::int64_t i) const {
+    float gained = 0;
+    between(below[i], above[i], gained);
+    return gained;
+  }
+  /// Between two temperatures [K], or vectors of them.
+  template <class T>
+  void between(const T& one, const T& other, T& gained) const {
+    gained = perKelvin * (0.5f * (one + other) - ambient);
+  }
 
   const float *below, *above;  ///< [K]
   float perKelvin, ambient;    ///< [m/(s K)], [K]

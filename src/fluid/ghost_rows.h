@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/row_lines.h"
 #include "fluid/fluid_settings.h"
 #include "grid/mac_velocity.h"
 
@@ -20,38 +21,60 @@ class GhostRows {
   std::int64_t stride(int axis) const { return samples_.stride(axis); }
   /// Whether row (j, k) has samples on all four sides.
   bool inside(int j, int k) const { return j > 0 && k > 0 && j + 1 < samples_.size.y && k + 1 < samples_.size.z; }
+  /// Whether there is a row (j, k).
+  bool has(int j, int k) const { return j >= 0 && k >= 0 && j < samples_.size.y && k < samples_.size.z; }
   /// Row (j, k), one of which may be one beyond the samples. `room` holds length() floats, for a row that is made.
-  const float* row(int j, int k, float* room) const {
-    const bool inside = j >= 0 && k >= 0 && j < samples_.size.y && k < samples_.size.z;
-    return inside ? &samples_(0, j, k) : rowBeyond(j, k, room);
+  const float* row(int j, int k, float* room) const { return has(j, k) ? &samples_(0, j, k) : rowBeyond(j, k, room); }
+  /// A copy of a row that there is. A few cache lines: calling the library for them takes longer than copying.
+  void copyRow(int j, int k, float* to) const {
+    const float* from = &samples_(0, j, k);
+    const int count = length();
+    int i = 0;
+    for (; i + lineFloats <= count; i += lineFloats) std::memcpy(to + i, from + i, lineFloats * sizeof(float));
+    for (; i < count; ++i) to[i] = from[i];
   }
-  /// A copy of a row inside with its ghosts at [-1] and [length()]. `room` holds length() + 2 floats.
+  /// Likewise, with its ghosts at [-1] and [length()]. `room` holds length() floats and a line of the cache at both
+  /// ends; where it starts at one, so do the samples.
   const float* withEnds(int j, int k, float* room) const {
-    float* copy = room + 1;
-    copyRow(&samples_(0, j, k), length(), copy);
-    copy[-1] = end(0, j, k);
-    copy[length()] = end(1, j, k);
+    float* copy = room + lineFloats;
+    copyRow(j, k, copy);
+    addEnds(rowsOfCrossing(j, k), velocity_.u, copy);
     return copy;
   }
-  /// The ghost before (side 0) or after (1) a row inside.
-  float end(int side, int j, int k) const;
+
+  /// Rows of cells whose speeds along x, added, tell whether gas comes in at the ends of a row of samples: a velocity
+  /// component along another axis lies between two cells.
+  struct CrossingRows {
+    int jBefore, kBefore, jAt, kAt;
+  };
+  CrossingRows rowsOfCrossing(int j, int k) const {
+    const Vec3i cells = velocity_.u.size;
+    return {along_ == 1 ? std::max(j - 1, 0) : j, along_ == 2 ? std::max(k - 1, 0) : k, std::min(j, cells.y - 1),
+            std::min(k, cells.z - 1)};
+  }
+  /// Writes the ghosts at [-1] and [length()] of a copied row. `speeds(i, j, k)`: u.
+  template <class Speeds>
+  void addEnds(const CrossingRows& rows, const Speeds& speeds, float* copy) const {
+    for (const int side : {0, 1}) {
+      const End& at = ends_[side];
+      float ghost = at.sign * copy[at.source];
+      if (at.open) {
+        const float crossing = speeds(at.face, rows.jBefore, rows.kBefore) + speeds(at.face, rows.jAt, rows.kAt);
+        ghost = select(side ? crossing < 0 : crossing > 0, outer_, ghost);
+      }
+      copy[side ? length() : -1] = ghost;
+    }
+  }
 
  private:
   /// What is known of all ghosts beyond one of the two faces across x.
   struct End {
     std::int64_t source;  ///< place in the row of the sample that the ghost equals, or is the reverse of
     float sign;
-    bool open;          ///< where gas comes in, the ghost is `outer` instead
-    std::int64_t face;  ///< place in a row of the velocity along x
+    bool open;  ///< where gas comes in, the ghost is `outer` instead
+    int face;   ///< place in a row of the velocity along x
   };
   End endOf(int side) const;
-  /// A few cache lines: calling the library for them takes longer than copying.
-  static void copyRow(const float* from, int count, float* to) {
-    constexpr int line = 16;
-    int i = 0;
-    for (; i + line <= count; i += line) std::memcpy(to + i, from + i, line * sizeof(float));
-    for (; i < count; ++i) to[i] = from[i];
-  }
   const float* rowBeyond(int j, int k, float* room) const;
   const float* madeRow(int face, int j, int k, float* room) const;
   bool reversedAt(int face) const { return along_ >= 0 && face / 2 != along_ && faces_[face] == FaceKind::noSlip; }
@@ -65,17 +88,5 @@ class GhostRows {
   const Faces& faces_;
   End ends_[2];
 };
-
-inline float GhostRows::end(int side, int j, int k) const {
-  const End& at = ends_[side];
-  const float inside = at.sign * samples_.values[samples_.index(0, j, k) + at.source];
-  if (!at.open) return inside;
-  const Grid3<float>& u = velocity_.u;  // a component along y or z lies between two rows of cells
-  const int jBefore = along_ == 1 ? std::max(j - 1, 0) : j, kBefore = along_ == 2 ? std::max(k - 1, 0) : k;
-  const int jAt = std::min(j, u.size.y - 1), kAt = std::min(k, u.size.z - 1);
-  const float crossing = u.values[u.index(0, jBefore, kBefore) + at.face] + u.values[u.index(0, jAt, kAt) + at.face];
-  const bool comesIn = side ? crossing < 0 : crossing > 0;
-  return comesIn ? outer_ : inside;
-}
 
 }  // namespace brisance

@@ -1,33 +1,17 @@
 #include "base/parallel.h"
-#include "base/row_lines.h"
 #include "base/vector_path.h"
 #include "fluid/advection.h"
-#include "fluid/donor_rows.h"
+#include "fluid/carried_row.h"
 #include "fluid/donor_sweep.h"
 #include "fluid/forces.h"
+#include "fluid/made_rows.h"
+#include "fluid/row_ring.h"
+#include "fluid/solid_rows.h"
+#include "fluid/sweep_strips.h"
 
 namespace brisance {
 
 namespace {
-/// Of a velocity component and of what carries it.
-struct Stencil {
-  Neighbours s;
-  FaceSides sides;
-
-  /// Along its own axis a component carries itself.
-  void carryItself(int axis) {
-    sides.lowerPair[axis][0] = s.lower[axis];
-    sides.lowerPair[axis][1] = sides.upperPair[axis][0] = s.here;
-    sides.upperPair[axis][1] = s.upper[axis];
-  }
-  void setSides(int axis, const float* lower0, const float* lower1, const float* upper0, const float* upper1) {
-    sides.lowerPair[axis][0] = lower0;
-    sides.lowerPair[axis][1] = lower1;
-    sides.upperPair[axis][0] = upper0;
-    sides.upperPair[axis][1] = upper1;
-  }
-};
-
 /// The old velocity's rows, and what accelerates the new one.
 class SpeedSweep {
  public:
@@ -35,102 +19,143 @@ class SpeedSweep {
       : gas_(gas),
         settings_(settings),
         out_(out),
+        cells_(gas.temperature.size),
         rows_{componentRows(0), componentRows(1), componentRows(2)},
-        c_(static_cast<float>(dt / settings.cellSize) / (2 * FaceSides::perSpeed)),
+        c_(static_cast<float>(dt / settings.cellSize) / 4),
         weight_(upwindWeightOf(settings)),
         dt_(dt) {}
-  static constexpr int rooms = 15;
 
-  void plane(int k, Rooms& made) const {
-    const Vec3i cells = gas_.temperature.size;
-    EndedRows ended;
-    for (int j = 0; j <= cells.y; ++j)
-      runWide([&] {
-        ended = endedRows(j, k, ended.vUpper, made);
-        if (k < cells.z && j < cells.y) accelerateAlongX(j, k, ended, made);
-        if (k < cells.z) accelerateAlongY(j, k, ended.v, made);
-        if (j < cells.y) accelerateAlongZ(j, k, ended.w, made);
-      });
+  /// Scratch of one thread.
+  class Room {
+   public:
+    Room(int cells, int rows) : old(cells + 1, rows), planeEnd_(cells + 1, 3 * (rows + 1)), rowEnd_(cells + 1, 3) {}
+    /// Of a component: what waits along y for its next row, along z for row `row` of the next plane.
+    float* waiting(int component, int axis, int row) {
+      return axis == 1 ? rowEnd_[component] : planeEnd_[3 * row + component];
+    }
+    RowRing<3, 3> old;
+
+   private:
+    Rooms planeEnd_, rowEnd_;
+  };
+
+  /// The strip's faces along x, those below its cells along y and z, and the box's last.
+  void strip(const SweepStrip& strip, Room& room) const {
+    const int endRow = strip.endRow + (strip.endRow == cells_.y),
+              endPlane = strip.endPlane + (strip.endPlane == cells_.z);
+    room.old.begin(strip);
+    for (const int k : {strip.firstPlane - 1, strip.firstPlane})
+      for (int j = strip.firstRow - 1; j <= endRow; ++j) runWide([&] { fill(j, k, room); });
+    for (int k = strip.firstPlane; k < endPlane; ++k) {
+      for (int j = strip.firstRow - 1; j < strip.firstRow + rowsAhead; ++j) runWide([&] { fill(j, k + 1, room); });
+      for (int j = strip.firstRow; j < endRow; ++j)
+        runWithVectors([&]<int floats>() {
+          if (j + rowsAhead <= endRow) fill(j + rowsAhead, k + 1, room);
+          const Row row{j, k, j - strip.firstRow, j == strip.firstRow, k == strip.firstPlane};
+          if (j < cells_.y && k < cells_.z) accelerate<floats, 0>(row, room);
+          if (k < cells_.z) accelerate<floats, 1>(row, room);
+          if (j < cells_.y) accelerate<floats, 2>(row, room);
+        });
+    }
   }
 
  private:
+  static constexpr int rowsAhead = 2;  // so that what was stored is in the cache when it is read
+
+  struct Row {
+    int j, k, inStrip;
+    bool firstRow, firstPlane;  ///< of a strip
+  };
   GhostRows componentRows(int axis) const {
     return {gas_.velocity.component(axis), axis, static_cast<float>(settings_.wind[axis]), gas_.velocity,
             settings_.faces};
   }
-  float force(int axis) const { return static_cast<float>(dt_ * settings_.force[axis]); }
-
-  /// Copies with ghosts at their ends of the rows around cells (j, k), of those that there are.
-  struct EndedRows {
-    const float *v = nullptr, *vUpper = nullptr, *w = nullptr, *wUpper = nullptr;
-  };
-  /// `v`: that of row j, made for the row before as its `vUpper`.
-  EndedRows endedRows(int j, int k, const float* v, Rooms& made) const {
-    const Vec3i cells = gas_.temperature.size;
-    const bool inRows = j < cells.y, inPlanes = k < cells.z;
-    EndedRows rows;
-    if (inPlanes) rows.v = j == 0 ? rows_[1].withEnds(0, k, made[11]) : v;
-    if (inPlanes && inRows) rows.vUpper = rows_[1].withEnds(j + 1, k, made[11 + (j + 1) % 2]);
-    if (inRows) rows.w = rows_[2].withEnds(j, k, made[13]);
-    if (inPlanes && inRows) rows.wUpper = rows_[2].withEnds(j, k + 1, made[14]);
-    return rows;
+  /// Rows of all components at (j, k), where there are such or they are ghosts of some.
+  void fill(int j, int k, Room& room) const {
+    for (int component = 0; component < 3; ++component) {
+      const Vec3i size = gas_.velocity.component(component).size;
+      const bool rowBeyond = j < 0 || j >= size.y, planeBeyond = k < 0 || k >= size.z;
+      if (j > size.y || k > size.z || (rowBeyond && planeBeyond)) continue;
+      room.old.fill(component, rows_[component], gas_.velocity, j, k);
+    }
   }
 
-  void accelerateAlongX(int j, int k, const EndedRows& ended, Rooms& made) const {
-    Stencil x{neighboursOf(rows_[0], j, k, made, 0), {}};
-    x.carryItself(0);
-    x.setSides(1, ended.v - 1, ended.v, ended.vUpper - 1, ended.vUpper);
-    x.setSides(2, ended.w - 1, ended.w, ended.wUpper - 1, ended.wUpper);
-    const float gained = force(0);
-    accelerate(0, x, j, k, [=](std::int64_t) { return gained; });
+  // Components and axes are known to the compiler below, so that it keeps what it knows of rows in registers: copies of
+  // addresses just written wait until all numbers written before are in the cache.
+
+  /// The row of a component's faces below (j, k) along y or z.
+  template <int component, int axis>
+  FaceRow<2> facesBelow(int j, int k, Room& room) const {
+    constexpr int other = component == axis ? 0 : component;  // the axis along which the component's cells are halved
+    RowRing<3, 3>& old = room.old;
+    const float *below = old.row(component, j - (axis == 1), k - (axis == 2)), *above = old.row(component, j, k);
+    if constexpr (component == axis) return {{below, above}, below, above};
+    const float* across = old.row(axis, j, k);
+    if constexpr (component == 0) return {{across - 1, across}, below, above};
+    return {{old.row(axis, j - (other == 1), k - (other == 2)), across}, below, above};
   }
 
-  void accelerateAlongY(int j, int k, const float* v, Rooms& made) const {
-    Stencil y{neighboursOfEnded(rows_[1], j, k, v, made, 0), {}};
-    y.carryItself(1);
-    const float *u = rows_[0].row(j - 1, k, made[5]), *uNext = rows_[0].row(j, k, made[6]);
-    y.setSides(0, u, uNext, u + 1, uNext + 1);
-    y.setSides(2, rows_[2].row(j - 1, k, made[7]), rows_[2].row(j, k, made[8]), rows_[2].row(j - 1, k + 1, made[9]),
-               rows_[2].row(j, k + 1, made[10]));
-    const float gained = force(1);
-    if (settings_.buoyancy == 0) return accelerate(1, y, j, k, [=](std::int64_t) { return gained; });
+  template <int floats, int component, int axis>
+  void await(const Row& at, Room& room) const {
+    awaitRow<floats>(out_.component(component).size.x, facesBelow<component, axis>(at.j, at.k, room), weight_,
+                     room.waiting(component, axis, at.inStrip));
+  }
+
+  template <int floats, int component>
+  void accelerate(const Row& at, Room& room) const {
+    if (at.firstRow) await<floats, component, 1>(at, room);
+    if (at.firstPlane) await<floats, component, 2>(at, room);
+    const int j = at.j, k = at.k;
+    const float *here = room.old.row(component, j, k), *next = here + 1;
+    const float *before = room.old.row(0, j - (component == 1), k - (component == 2)) + (component == 0 ? 0 : 1),
+                *beside = room.old.row(0, j, k) + 1;
+    const FaceRow<2> y = facesBelow<component, 1>(j + 1, k, room), z = facesBelow<component, 2>(j, k + 1, room);
+    const SpeedsAbove<2> speeds{{{before, beside}, {y.speed[0], y.speed[1]}, {z.speed[0], z.speed[1]}}};
+    const SamplesAbove samples{
+        here,
+        {next, y.above, z.above},
+        {nullptr, room.waiting(component, 1, at.inStrip), room.waiting(component, 2, at.inStrip)}};
+    const float force = static_cast<float>(dt_ * settings_.force[component]);
+    if (component != 1 || settings_.buoyancy == 0)
+      return carry<floats, component>(at, speeds, samples, [=]<int n>(std::int64_t, auto& gained) { gained += force; });
     const Lift lift(gas_.temperature, settings_, dt_, j, k);
-    accelerate(1, y, j, k, [=](std::int64_t i) { return gained + lift(i); });
+    const std::int64_t count = cells_.x;
+    carry<floats, component>(at, speeds, samples, [=]<int n>(std::int64_t i, auto& gained) {
+      using V = NamedVectors<n>;
+      fetchToRead(i + count, lift.above);
+      const typename V::Type below = V::at(lift.below + i), above = V::at(lift.above + i);
+      typename V::Type lifted;
+      lift.between(below, above, lifted);
+      gained += force + lifted;
+    });
   }
 
-  void accelerateAlongZ(int j, int k, const float* w, Rooms& made) const {
-    Stencil z{neighboursOfEnded(rows_[2], j, k, w, made, 0), {}};
-    z.carryItself(2);
-    const float *u = rows_[0].row(j, k - 1, made[5]), *uNext = rows_[0].row(j, k, made[6]);
-    z.setSides(0, u, uNext, u + 1, uNext + 1);
-    z.setSides(1, rows_[1].row(j, k - 1, made[7]), rows_[1].row(j, k, made[8]), rows_[1].row(j + 1, k - 1, made[9]),
-               rows_[1].row(j + 1, k, made[10]));
-    const float gained = force(2);
-    accelerate(2, z, j, k, [=](std::int64_t) { return gained; });
-  }
-
-  template <class Gained>
-  void accelerate(int axis, const Stencil& stencil, int j, int k, const Gained& gained) const {
-    const float* open = openRow(gas_.solid, axis, j, k);
-    Grid3<float>& out = out_.component(axis);
-    carry(stencil, open, out.size.x, &out(0, j, k), gained);
-  }
-
-  template <class Gained>
-  void carry(const Stencil& stencil, const float* open, int count, float* out, const Gained& gain) const {
-    const Stencil at = stencil;  // which no store changes
-    const Gained gained = gain;
-    const float c = c_, weight = weight_;
-    const auto fetch = [&](std::int64_t i) { fetchToRead(i + count, at.s.upper[2]); };  // the next row lies behind
-    forLines(count, fetch, [&](std::int64_t i) {
-      const float moved = carried(at.s, DonorShares(at.sides, weight, i), c, i) + gained(i);
-      out[i] = select(open[i] > 0, moved, at.s.here[i]);
+  template <int floats, int component, class Gain>
+  void carry(const Row& at, const SpeedsAbove<2>& speedsAbove, const SamplesAbove& samples, const Gain& gain) const {
+    const float* open = openRow(gas_.solid, component, at.j, at.k);
+    Grid3<float>& out = out_.component(component);
+    float* to = &out(0, at.j, at.k);
+    const std::int64_t count = out.size.x;
+    const SamplesAbove fields[1] = {samples};
+    const Grid3<float>& from = gas_.velocity.component(component);
+    const float* copiedLater = &from.values[0] + from.index(0, at.j + rowsAhead + 2, at.k + 1);
+    const auto fetch = [=](std::int64_t i) {
+      fetchToRead(i, copiedLater);
+      fetchToWrite(i + count, to);  // the next row lies behind
+    };
+    carryRow<floats>(count, speedsAbove, fields, weight_, c_, fetch, [=]<int n>(std::int64_t i, const auto& carried) {
+      using V = NamedVectors<n>;
+      typename V::Type moved = carried[0];
+      gain.template operator()<n>(i, moved);
+      const typename V::Type share = V::at(open + i), here = V::at(samples.here + i);
+      V::at(to + i) = share > 0 ? moved : here;
     });
   }
 
   const FluidState& gas_;
   const FluidSettings& settings_;
   MacVelocity& out_;
+  Vec3i cells_;
   GhostRows rows_[3];
   float c_, weight_;
   double dt_;
@@ -145,9 +170,11 @@ bool sweepsSuffice(const FluidSettings& settings, double courant) {
 void sweepVelocity(FluidState& gas, const FluidSettings& settings, double dt, SweepScratch& scratch) {
   for (int axis = 0; axis < 3; ++axis) sizeAs(scratch.velocity.component(axis), gas.velocity.component(axis));
   const SpeedSweep sweep(gas, settings, dt, scratch.velocity);
-  parallelFor(0, gas.temperature.size.z + 1, 2, [&](std::int64_t first, std::int64_t last) {
-    Rooms made(gas.temperature.size.x + 1, SpeedSweep::rooms);
-    for (std::int64_t k = first; k < last; ++k) sweep.plane(static_cast<int>(k), made);
+  const Vec3i cells = gas.temperature.size;
+  const SweepStrips strips(cells);
+  parallelFor(0, strips.count(), 1, [&](std::int64_t first, std::int64_t last) {
+    SpeedSweep::Room room(cells.x, strips.rowsPerStrip());
+    for (std::int64_t n = first; n < last; ++n) sweep.strip(strips[static_cast<int>(n)], room);
   });
   std::swap(gas.velocity, scratch.velocity);
 }
