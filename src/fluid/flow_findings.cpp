@@ -1,6 +1,7 @@
 #include "fluid/flow_findings.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "base/parallel.h"
@@ -13,6 +14,13 @@ namespace {
 inline float larger(float a, float b) {
   a = std::abs(a), b = std::abs(b);
   return a > b ? a : b;
+}
+/// Whether any is not zero.
+bool anySource(const float* rates, int count) {
+  constexpr std::uint32_t allButSign = 0x7fffffff;
+  std::uint32_t found = 0;
+  for (int i = 0; i < count; ++i) found |= std::bit_cast<std::uint32_t>(rates[i]) & allButSign;
+  return found != 0;
 }
 double sumOfRow(const float* values, int count) {
   double sum = 0;
@@ -37,7 +45,7 @@ FlowLook::FlowLook(const FluidState& gas)
       created_(gas.divergence.size.x),
       fastest_(gas.divergence.size.x) {}
 
-template <bool solids>
+template <bool solids, bool sources>
 void FlowLook::addSums(const Row& at) {
   const Row row = at;  // which no store changes
   const double perLength = perLength_;
@@ -47,12 +55,14 @@ void FlowLook::addSums(const Row& at) {
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const bool solid = solids && row.solids[i];
-    const double phi = row.phi[i], along = double(row.u[i + 1]) - row.u[i], up = double(row.vUpper[i]) - row.v[i],
+    const double phi = sources ? row.phi[i] : 0.0f, along = double(row.u[i + 1]) - row.u[i], up = double(row.vUpper[i]) - row.v[i],
                  across = double(row.wUpper[i]) - row.w[i], lack = ((along + up) + across) * perLength - phi;
     const double lackSquared = lack * lack, phiSquared = phi * phi;
     wrong[i] += solid ? 0 : lackSquared;
-    source[i] += solid ? 0 : phiSquared;
-    created[i] += solid ? 0 : phi;
+    if constexpr (sources) {
+      source[i] += solid ? 0 : phiSquared;
+      created[i] += solid ? 0 : phi;
+    }
     const float speed =
         larger(row.u[i], row.u[i + 1]) + larger(row.v[i], row.vUpper[i]) + larger(row.w[i], row.wUpper[i]);
     fastest[i] = speed > fastest[i] ? speed : fastest[i];
@@ -78,7 +88,13 @@ void FlowLook::row(int j, int k) {
                 &m.w(0, j, k + 1),
                 &gas_.divergence(0, j, k),
                 solidsOfRow(gas_.solid, j, k)};
-  runWide([&] { row.solids ? addSums<true>(row) : addSums<false>(row); });
+  runWide([&] {
+    const bool sources = anySource(row.phi, gas_.divergence.size.x);
+    if (row.solids)
+      sources ? addSums<true, true>(row) : addSums<true, false>(row);
+    else
+      sources ? addSums<false, true>(row) : addSums<false, false>(row);
+  });
   outward_ += outwardAt(row, j, k);
 }
 

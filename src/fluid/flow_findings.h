@@ -36,7 +36,7 @@ class FlowLook {
     const float *u, *v, *vUpper, *w, *wUpper, *phi;
     const std::uint8_t* solids;  ///< null: no cell is solid
   };
-  template <bool solids>
+  template <bool solids, bool sources>
   void addSums(const Row& row);
   double outwardAt(const Row& row, int j, int k) const;
 
