@@ -38,7 +38,8 @@ FrameParticles spreadParticles() {
   return particles;
 }
 
-Vec3f colourOf(float temperature) { return {1, temperature, temperature * temperature}; }
+/// An object, as the renderer's colours are: calls of it are inlined.
+constexpr auto colourOf = [](float temperature) { return Vec3f(1, temperature, temperature * temperature); };
 
 ParticleVolumeSettings volumeSettings(double deviation, int filterSize) {
   return {{volumeCells, volumeCells, volumeCells}, {0, 0, 0}, cellSize, deviation * cellSize, filterSize};

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/stream_copy.h"
 #include "base/vector_path.h"
+#include "frame/finished_cells.h"
 #include "grid/separable_blur.h"
 
 namespace brisance {
@@ -12,7 +13,7 @@ namespace brisance {
 namespace {
 
 constexpr double filterDeviations = 3;  // where the Gaussian ends unless a width is asked for
-constexpr int channels = 4;             // mass, and mass times red, green, blue
+constexpr int channels = sumsPerCell;
 using Point = SplatPoint<channels>;
 
 SymmetricFilter filterFor(const ParticleVolumeSettings& settings) {
@@ -40,8 +41,8 @@ struct DrawnPoints {
     const int count = static_cast<int>(end - first);
     float mass[sortRun];
     look.weigh(first, count, mass);
-    int lowest = settings.size.x, highest = -1;
-    runWide([&] {
+    CellSpan reached;
+    runWide([&, count, rows] {
       const ShareRun share = shares(first, count);
       std::int32_t outside[sortRun];
       for (int n = 0; n < count; ++n) outside[n] = !(mass[n] > 0);
@@ -54,15 +55,18 @@ struct DrawnPoints {
           outside[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= last)};
         }
       }
-      const int rowsPerLayer = settings.size.y;
+      const int rowsPerLayer = settings.size.y, cellsPerRow = settings.size.x;
+      int lowest = cellsPerRow, highest = -1;
 #pragma GCC ivdep
-      for (int n = 0; n < count; ++n) rows[n] = outside[n] ? -1 : share.lower[1][n] + rowsPerLayer * share.lower[2][n];
       for (int n = 0; n < count; ++n) {
-        lowest = std::min(lowest, rows[n] < 0 ? lowest : share.lower[0][n]);
-        highest = std::max(highest, rows[n] < 0 ? highest : share.lower[0][n]);
+        const std::int32_t x = share.lower[0][n], row = share.rowOf(n, rowsPerLayer);
+        rows[n] = outside[n] ? -1 : row;
+        lowest = std::min(lowest, outside[n] ? cellsPerRow : x);
+        highest = std::max(highest, outside[n] ? -1 : x);
       }
+      reached = {lowest, highest + 1};
     });
-    return {lowest, highest + 1};
+    return reached;
   }
   void make(std::int64_t first, std::int64_t end, Point* points) const {
     const int count = static_cast<int>(end - first);
@@ -147,73 +151,6 @@ void layOut(Grid3<T>& grid, const CellBox& cells, const ParticleVolumeSettings& 
   resizeForOverwriting(grid.values, static_cast<std::size_t>(cells.size.x) * cells.size.y * cells.size.z);
 }
 
-/// Named as a vector, for the compiler makes single loads and stores of a loop over threes and fours.
-typedef float Vector __attribute__((vector_size(16 * sizeof(float)), aligned(sizeof(float)), may_alias));
-
-/// Density and colour of some cells of a row, on the way from the blurred sums to memory.
-struct FinishedCells {
-  static constexpr int most = 128, block = 16;
-  alignas(64) float density[most];
-  alignas(64) float colour[3 * most];
-
-  /// Of the first `count` cells of `sums`, and of more up to a whole block.
-  template <int floats>
-  void make(const float* sums, int count, float perVolume) {
-    if constexpr (floats == block)
-      makeBlocks(sums, count, perVolume);
-    else
-      makeCells(sums, count, perVolume);
-  }
-
- private:
-  void makeCells(const float* sums, int count, float perVolume) {
-    for (int n = 0; n < count; ++n) {
-      const float* cell = sums + channels * n;
-      const float mass = cell[0], perMass = mass > 0 ? 1 / mass : 0.0f;
-      density[n] = mass * perVolume;
-      for (int c = 0; c < 3; ++c) colour[3 * n + c] = cell[1 + c] * perMass;
-    }
-  }
-  void makeBlocks(const float* sums, int count, float perVolume) {
-    for (int n = 0; n < count; n += block) {
-      Vector cells[4];  // four cells each
-      for (int v = 0; v < 4; ++v) cells[v] = *reinterpret_cast<const Vector*>(sums + channels * n + block * v);
-      Vector mass;
-      firstOfFours(cells, mass);
-      *reinterpret_cast<Vector*>(density + n) = mass * perVolume;
-      const Vector none{}, perMass = mass > none ? (none + 1) / mass : none;
-      meanColours<0>(perMass, cells[0]);
-      meanColours<4>(perMass, cells[1]);
-      meanColours<8>(perMass, cells[2]);
-      meanColours<12>(perMass, cells[3]);
-      store(cells, colour + 3 * n);
-    }
-  }
-
-  static void firstOfFours(const Vector (&cells)[4], Vector& mass) {
-    const Vector low = __builtin_shufflevector(cells[0], cells[1], 0, 4, 8, 12, 16, 20, 24, 28, -1, -1, -1, -1, -1, -1,
-                                               -1, -1),
-                 high = __builtin_shufflevector(cells[2], cells[3], 0, 4, 8, 12, 16, 20, 24, 28, -1, -1, -1, -1, -1, -1,
-                                                -1, -1);
-    mass = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
-  }
-  /// Of four cells of sixteen, from the n-th on: three numbers each, side by side.
-  template <int n>
-  static void meanColours(const Vector& perMass, Vector& cells) {
-    cells *= __builtin_shufflevector(perMass, perMass, n, n, n, n, n + 1, n + 1, n + 1, n + 1, n + 2, n + 2, n + 2,
-                                     n + 2, n + 3, n + 3, n + 3, n + 3);
-    cells = __builtin_shufflevector(cells, cells, 1, 2, 3, 5, 6, 7, 9, 10, 11, 13, 14, 15, -1, -1, -1, -1);
-  }
-  /// Four times twelve numbers.
-  static void store(const Vector (&cells)[4], float* colours) {
-    Vector* lines = reinterpret_cast<Vector*>(colours);
-    lines[0] = __builtin_shufflevector(cells[0], cells[1], 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19);
-    lines[1] = __builtin_shufflevector(cells[1], cells[2], 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 20, 21, 22, 23);
-    lines[2] =
-        __builtin_shufflevector(cells[2], cells[3], 8, 9, 10, 11, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27);
-  }
-};
-
 /// Where the rows of the volume lie; all of them start at whole numbers of cells from the start of a line of memory.
 struct VolumeRows {
   ParticleVolume& volume;
@@ -223,22 +160,19 @@ struct VolumeRows {
   void finish(int j, int k, const CellSpan& piece, const CellSpan& filled, const float* sums) const {
     const std::int64_t row = volume.density.index(0, j, k);
     const auto wholeLines = [&](int cell) {
-      const int beyond = static_cast<int>((row + cell) % FinishedCells::block);
+      const int beyond = static_cast<int>((row + cell) % cellsPerLine);
       return cell == volume.density.size.x ? cell : std::max(0, cell - beyond);
     };
     const int first = wholeLines(piece.first), count = wholeLines(piece.end) - first;
     float* density = volume.density.values.data() + row + first;
     float* colour = &volume.colour.values.data()[row + first].x;
+    if (piece.first == 0) fetchLastLines(density + volume.density.size.x, colour + 3 * volume.density.size.x);
     if (filled.end <= first || filled.first >= first + count) {
       streamZeros(density, count);
       streamZeros(colour, 3 * count);
     } else {
-      FinishedCells some;
-      runWithVectors([&]<int floats>() { some.make<floats>(sums + channels * first, count, perVolume); });
-      streamCopy(density, some.density, count);
-      streamCopy(colour, some.colour, 3 * count);
+      finishCells(sums + channels * first, count, perVolume, density, colour);
     }
-    if (piece.end == volume.density.size.x) endStreaming();
   }
 };
 
@@ -249,6 +183,7 @@ BlurTask volumeBlur(const SymmetricFilter& filter, ParticleVolume& volume) {
   const float perVolume = static_cast<float>(1 / (cell * cell * cell));
   task.finish = [rows = VolumeRows{volume, perVolume}](int j, int k, const CellSpan& piece, const CellSpan& filled,
                                                        const float* sums) { rows.finish(j, k, piece, filled, sums); };
+  task.finished = endStreaming;
   return task;
 }
 

@@ -31,30 +31,37 @@ struct Weights {
   int radius() const { return fixedRadius > 0 ? fixedRadius : anyRadius; }
 };
 
-/// Filtered sums of rows 0 .. 3 over rows[-radius] .. rows[radius + 3], of the pieces of numbers from `first` until
-/// `end`. The rows at a distance t below and above each are those at t - 1 of its neighbours, so that two are loaded
-/// for four sums. Where `cleared`, the first four of the rows become zero.
+/// Filtered sums of rows 0 .. 3 over rows[-radius] .. rows[radius + 3], of a vector of numbers from `at` on. The rows
+/// at a distance t below and above each are those at t - 1 of its neighbours, so that two are loaded for four sums.
+/// Where `cleared`, the first four of the rows become zero.
+template <int floats, bool cleared, int fixedRadius>
+inline void sumFour(float* const* rows, const Weights<fixedRadius>& filter, int at,
+                    typename Vectors<floats>::Type (&sum)[rowsAtOnce]) {
+  using V = Vectors<floats>;
+  typename V::Type below[rowsAtOnce], above[rowsAtOnce];
+  for (int q = 0; q < rowsAtOnce; ++q) {
+    below[q] = above[q] = V::at(rows[q] + at);
+    sum[q] = below[q] * filter.weights[0];
+  }
+  for (int t = 1; t <= filter.radius(); ++t) {
+    for (int q = rowsAtOnce - 1; q > 0; --q) below[q] = below[q - 1];
+    for (int q = 0; q < rowsAtOnce - 1; ++q) above[q] = above[q + 1];
+    below[0] = V::at(rows[-t] + at);
+    above[rowsAtOnce - 1] = V::at(rows[rowsAtOnce - 1 + t] + at);
+    for (int q = 0; q < rowsAtOnce; ++q) sum[q] += (below[q] + above[q]) * filter.weights[t];
+  }
+  for (int q = 0; cleared && q < rowsAtOnce; ++q) V::at(rows[q - filter.radius()] + at) = typename V::Type{};
+}
+
+/// The same of the pieces of numbers from `first` until `end`.
 template <int floats, bool cleared, int fixedRadius>
 inline void sumNeighbours(float* const* rows, const Weights<fixedRadius>& filter, int first, int end,
                           float* const* sums) {
   using V = Vectors<floats>;
   for (int at = first; at < endOfPieces(first, end, widestFloats); at += floats) {
-    typename V::Type below[rowsAtOnce], above[rowsAtOnce], sum[rowsAtOnce];
-    for (int q = 0; q < rowsAtOnce; ++q) {
-      below[q] = above[q] = V::at(rows[q] + at);
-      sum[q] = below[q] * filter.weights[0];
-    }
-    for (int t = 1; t <= filter.radius(); ++t) {
-      for (int q = rowsAtOnce - 1; q > 0; --q) below[q] = below[q - 1];
-      for (int q = 0; q < rowsAtOnce - 1; ++q) above[q] = above[q + 1];
-      below[0] = V::at(rows[-t] + at);
-      above[rowsAtOnce - 1] = V::at(rows[rowsAtOnce - 1 + t] + at);
-      for (int q = 0; q < rowsAtOnce; ++q) sum[q] += (below[q] + above[q]) * filter.weights[t];
-    }
-    for (int q = 0; q < rowsAtOnce; ++q) {
-      V::at(sums[q] + at) = sum[q];
-      if (cleared) V::at(rows[q - filter.radius()] + at) = typename V::Type{};
-    }
+    typename V::Type sum[rowsAtOnce];
+    sumFour<floats, cleared>(rows, filter, at, sum);
+    for (int q = 0; q < rowsAtOnce; ++q) V::at(sums[q] + at) = sum[q];
   }
 }
 
@@ -65,37 +72,56 @@ template <int shift, int... n>
 inline void shiftInto(Widest& result, const Widest& first, const Widest& second, std::integer_sequence<int, n...>) {
   result = __builtin_shufflevector(first, second, (n + shift)...);
 }
-
-/// Adds what lies `distance` numbers to the left and right of a vector's numbers.
-template <int distance>
-inline void addPair(const Widest (&around)[3], float weight, Widest& sum) {
-  constexpr auto numbers = std::make_integer_sequence<int, widestFloats>();
-  Widest left, right;
-  shiftInto<widestFloats - distance>(left, around[0], around[1], numbers);
-  shiftInto<distance>(right, around[1], around[2], numbers);
-  sum += (left + right) * weight;
+template <int shift>
+inline void shiftInto(Widest& result, const Widest& first, const Widest& second) {
+  shiftInto<shift>(result, first, second, std::make_integer_sequence<int, widestFloats>());
 }
 
-/// Filtered sums along a row of cells with so many channels, of the pieces of numbers from `first` until `end`. Each
-/// vector is loaded once, and shifted in registers.
-template <int channels, int... t>
-inline void sumAlongShifted(const float* row, const float* weights, int first, int end, float* sums,
-                            std::integer_sequence<int, t...>) {
-  using V = Vectors<widestFloats>;
-  Widest around[3] = {{}, V::at(row + first - widestFloats), V::at(row + first)};
+/// Adds what lies `distance` numbers to the left and right of the numbers in `here`, a vector of a row. `left` is what
+/// lies to the left of them, and then of the next vector's: with four numbers a cell, some of it lies to the right of
+/// these.
+template <int distance>
+inline void addPair(Widest& left, const Widest& here, const Widest& next, float weight, Widest& sum) {
+  Widest right;
+  shiftInto<distance>(right, here, next);
+  sum += (left + right) * weight;
+  shiftInto<widestFloats - distance>(left, here, next);
+}
+
+/// Whether vectors are so wide, and filters so short, that sums along a row are made by shifting vectors in registers.
+/// Narrower vectors take longer to shift than to load.
+template <int floats, int fixedRadius>
+constexpr bool shiftsVectors = fixedRadius > 0 && floats == widestFloats;
+
+/// Sums of four neighbouring rows, as sumNeighbours makes them and clears what it reads, summed along the rows, whose
+/// cells have so many channels, before they leave the registers. Sums of rows before `first` are taken to be zero.
+template <int channels, int fixedRadius, int... t>
+inline void sumBothWaysShifted(float* const* rows, const Weights<fixedRadius>& filter, int first, int end,
+                               float* const* sums, std::integer_sequence<int, t...>) {
+  static_assert(channels * fixedRadius <= widestFloats);
+  Widest left[rowsAtOnce][fixedRadius], here[rowsAtOnce], next[rowsAtOnce];
+  sumFour<widestFloats, true>(rows, filter, first, next);
+  for (int q = 0; q < rowsAtOnce; ++q) (shiftInto<widestFloats - channels*(t + 1)>(left[q][t], Widest{}, next[q]), ...);
   for (int at = first; at < end; at += widestFloats) {
-    around[0] = around[1];
-    around[1] = around[2];
-    around[2] = V::at(row + at + widestFloats);
-    Widest sum = around[1] * weights[0];
-    (addPair<channels*(t + 1)>(around, weights[t + 1], sum), ...);
-    V::at(sums + at) = sum;
+    for (int q = 0; q < rowsAtOnce; ++q) here[q] = next[q];
+    sumFour<widestFloats, true>(rows, filter, at + widestFloats, next);
+    for (int q = 0; q < rowsAtOnce; ++q) {
+      Widest sum = here[q] * filter.weights[0];
+      (addPair<channels*(t + 1)>(left[q][t], here[q], next[q], filter.weights[t + 1], sum), ...);
+      Vectors<widestFloats>::at(sums[q] + at) = sum;
+    }
   }
 }
+template <int channels, int fixedRadius>
+inline void sumBothWaysShifted(float* const* rows, const Weights<fixedRadius>& filter, int first, int end,
+                               float* const* sums) {
+  sumBothWaysShifted<channels>(rows, filter, first, end, sums, std::make_integer_sequence<int, fixedRadius>());
+}
 
-/// The same, each vector loaded from where it lies.
+/// Filtered sums along a row of cells with so many channels, of the pieces of numbers from `first` until `end`, each
+/// vector loaded from where it lies.
 template <int floats, int channels, int fixedRadius>
-inline void sumAlongLoaded(const float* row, const Weights<fixedRadius>& filter, int first, int end, float* sums) {
+inline void sumAlong(const float* row, const Weights<fixedRadius>& filter, int first, int end, float* sums) {
   using V = Vectors<floats>;
   for (int at = first; at < endOfPieces(first, end, pieceAlong); at += vectorsAlong * floats) {
     typename V::Type sum[vectorsAlong];
@@ -106,17 +132,6 @@ inline void sumAlongLoaded(const float* row, const Weights<fixedRadius>& filter,
         sum[v] += (V::at(left + v * floats) + V::at(right + v * floats)) * filter.weights[t];
     }
     for (int v = 0; v < vectorsAlong; ++v) V::at(sums + at + v * floats) = sum[v];
-  }
-}
-
-/// Narrower vectors take longer to shift than to load.
-template <int floats, int channels, int fixedRadius>
-inline void sumAlong(const float* row, const Weights<fixedRadius>& filter, int first, int end, float* sums) {
-  if constexpr (fixedRadius > 0 && floats == widestFloats) {
-    static_assert(channels * fixedRadius <= widestFloats);
-    sumAlongShifted<channels>(row, filter.weights, first, end, sums, std::make_integer_sequence<int, fixedRadius>());
-  } else {
-    sumAlongLoaded<floats, channels>(row, filter, first, end, sums);
   }
 }
 

@@ -33,8 +33,7 @@ constexpr int cellsBefore = widestFloats;
 
 using Rows = std::array<float*, rowsAtOnce>;
 
-/// Filtered sums along x, y or z of a span of cells, according to what rows are given; `sums` has room for whole
-/// blocks.
+/// Filtered sums of spans of four neighbouring rows; where they go there is room for whole blocks.
 class RowFilter {
  public:
   explicit RowFilter(const BlurTask& task)
@@ -43,36 +42,48 @@ class RowFilter {
     for (int t = 0; t <= radius_; ++t) weights_.push_back(task.filter(t));
   }
 
-  /// Along a row, around which there are zeros.
-  void sumAlong(const CellSpan& cells, const float* row, float* sums) const {
-    const NumberSpan span(cells, channels_);
-    forRadius([&](const auto& weights) {
-      runWithVectors([&]<int floats>() {
-        if (channels_ == 4)
-          blur::sumAlong<floats, 4>(row, weights, span.first, span.end, sums);
-        else
-          blur::sumAlong<floats, 1>(row, weights, span.first, span.end, sums);
-      });
-    });
-  }
   /// For sums of four neighbouring rows: row(t) gives that at a distance of -radius .. radius + 3 from the first.
   template <class Row>
   void useRows(const Row& row) {
     for (int t = -radius_; t < radius_ + rowsAtOnce; ++t) rows_[t + radius_] = row(t);
   }
-  void sumRows(const CellSpan& cells, const Rows& sums) const { sumNeighbours<false>(cells, sums); }
-  /// The first four of the rows become zero there.
-  void sumAndClearRows(const CellSpan& cells, const Rows& sums) const { sumNeighbours<true>(cells, sums); }
-
- private:
-  template <bool cleared>
-  void sumNeighbours(const CellSpan& cells, const Rows& sums) const {
+  /// Across the rows.
+  void sumRows(const CellSpan& cells, const Rows& sums) const {
     const NumberSpan span(cells, channels_);
     forRadius([&](const auto& weights) {
       runWithVectors([&]<int floats>() {
-        blur::sumNeighbours<floats, cleared>(rows_.data() + radius_, weights, span.first, span.end, sums.data());
+        blur::sumNeighbours<floats, false>(rows_.data() + radius_, weights, span.first, span.end, sums.data());
       });
     });
+  }
+  /// Across the rows, of which `filled` cells are not zero, and along them. The first four of the rows become zero.
+  /// linesFor(filled) gives lines for what is in between.
+  template <class Lines>
+  void sumBothWays(const CellSpan& filled, const CellSpan& cells, const Rows& sums, const Lines& linesFor) const {
+    forRadius([&](const auto& weights) {
+      runWithVectors([&]<int floats>() {
+        if (channels_ == 4)
+          sumBothWays<floats, 4>(weights, filled, cells, sums, linesFor);
+        else
+          sumBothWays<floats, 1>(weights, filled, cells, sums, linesFor);
+      });
+    });
+  }
+
+ private:
+  template <int floats, int channels, int fixedRadius, class Lines>
+  void sumBothWays(const Weights<fixedRadius>& weights, const CellSpan& filled, const CellSpan& cells, const Rows& sums,
+                   const Lines& linesFor) const {
+    const NumberSpan span(cells, channels), before(filled, channels);
+    float* const* rows = rows_.data() + radius_;
+    if constexpr (blur::shiftsVectors<floats, fixedRadius>) {
+      blur::sumBothWaysShifted<channels>(rows, weights, span.first, span.end, sums.data());
+    } else {
+      const Rows lines = linesFor(filled);
+      blur::sumNeighbours<floats, true>(rows, weights, before.first, before.end, lines.data());
+      for (int n = 0; n < rowsAtOnce; ++n)
+        blur::sumAlong<floats, channels>(lines[n], weights, span.first, span.end, sums[n]);
+    }
   }
   template <class Visit>
   void forRadius(const Visit& visit) const {
@@ -189,6 +200,7 @@ class StripBlur {
         far_(near_),
         filter_(task),
         summed_(rowsAtOnce, PaddedLine(task)),
+        unused_(task),
         blurred_(task.channels),
         layers_(rows, LayerRing(task)) {}
 
@@ -225,13 +237,16 @@ class StripBlur {
       for (int n = 0; n < rows; ++n) layers[n].begin(k, {});
       return;
     }
-    Rows sums;
-    for (int n = 0; n < rowsAtOnce; ++n) sums[n] = summed_[n].begin(made);
-    filter_.useRows([&](int t) { return near_[j + t]; });
-    filter_.sumAndClearRows(made, sums);
-    near_.isClear(j - radius_, j - radius_ + rowsAtOnce);
     const CellSpan reached{std::max(0, made.first - radius_), std::min(task_.size.x, made.end + radius_)};
-    for (int n = 0; n < rows; ++n) filter_.sumAlong(reached, sums[n], layers[n].begin(k, reached));
+    Rows sums;
+    for (int n = 0; n < rowsAtOnce; ++n) sums[n] = n < rows ? layers[n].begin(k, reached) : unused_.begin(reached);
+    filter_.useRows([&](int t) { return near_[j + t]; });
+    filter_.sumBothWays(made, reached, sums, [&](const CellSpan& filled) {
+      Rows lines;
+      for (int n = 0; n < rowsAtOnce; ++n) lines[n] = summed_[n].begin(filled);
+      return lines;
+    });
+    near_.isClear(j - radius_, j - radius_ + rowsAtOnce);
   }
 
   /// Row j of some layers from k on, piece by piece, so that what takes them mixes stores with the sums' arithmetic.
@@ -253,7 +268,8 @@ class StripBlur {
   int radius_;
   LayerRows near_, far_;
   RowFilter filter_;
-  std::vector<PaddedLine> summed_;
+  std::vector<PaddedLine> summed_;  ///< across rows
+  PaddedLine unused_;               ///< of rows beyond the strip
   PieceRows blurred_;
   std::vector<LayerRing> layers_;  ///< per row of the strip
 };
@@ -272,6 +288,7 @@ void blurSeparably(const BlurTask& task) {
     StripBlur blur(task, rows);
     for (int strip = static_cast<int>(first); strip < last; ++strip)
       blur.run(strip * rows, std::min((strip + 1) * rows, task.size.y));
+    task.finished();
   });
 }
 

@@ -24,6 +24,8 @@ struct BlurTask {
   /// Takes a piece of row (j, k), after those before it: cells outside `filled` are zero. `row` is the row's
   /// start, but of its cells only those of the piece and 16 before it are there. Together the pieces are all cells.
   std::function<void(int j, int k, const CellSpan& piece, const CellSpan& filled, const float* row)> finish;
+  /// Called by each thread after the last piece of some rows.
+  std::function<void()> finished = [] {};
 };
 /// The callbacks come from several threads at once, each for rows of its own.
 void blurSeparably(const BlurTask& task);

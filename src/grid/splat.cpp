@@ -1,5 +1,7 @@
 #include "grid/splat.h"
 
+#include <utility>
+
 #include "base/vector_path.h"
 
 namespace brisance {
@@ -12,6 +14,14 @@ struct CellPair {
   typedef float Amounts __attribute__((vector_size(2 * channels * sizeof(float)), aligned(sizeof(float)), may_alias));
 };
 
+/// One number for the channels of a cell and another for those of the next.
+template <int channels, int... n>
+inline void setPair(float left, float right, typename CellPair<channels>::Amounts& pair,
+                    std::integer_sequence<int, n...>) {
+  using Amounts = typename CellPair<channels>::Amounts;
+  pair = __builtin_shufflevector(Amounts{} + left, Amounts{} + right, (n < channels ? n : n + 2 * channels)...);
+}
+
 /// The rows around points of one row of lower neighbours: this one, the next along y, and both of the next layer.
 struct RowsAround {
   float* cells[4];
@@ -22,16 +32,13 @@ struct RowsAround {
 template <int channels>
 inline CellSpan addPoints(std::span<const SplatPoint<channels>> points, const float* gainX, const RowsAround& rows) {
   using Amounts = typename CellPair<channels>::Amounts;
+  const auto pairs = std::make_integer_sequence<int, 2 * channels>();
   int first = points.front().lower, last = first;
   for (const SplatPoint<channels>& point : points) {
     const auto [x, y, z] = point.fraction;
-    const float left = (1 - x) * gainX[point.lower], right = x * gainX[point.lower + 1];
     Amounts amount, share;
-    for (int c = 0; c < channels; ++c) {
-      amount[c] = amount[channels + c] = point.amount[c];
-      share[c] = left;
-      share[channels + c] = right;
-    }
+    setPair<channels>((1 - x) * gainX[point.lower], x * gainX[point.lower + 1], share, pairs);
+    for (int c = 0; c < channels; ++c) amount[c] = amount[channels + c] = point.amount[c];
     const float weight[4] = {(1 - y) * (1 - z), y * (1 - z), (1 - y) * z, y * z};
     for (int row = 0; row < 4; ++row) {
       Amounts* cells = reinterpret_cast<Amounts*>(rows.cells[row] + static_cast<std::int64_t>(channels) * point.lower);

@@ -45,6 +45,8 @@ struct ShareRun {
       fraction[axis][n] = share[axis].fraction;
     }
   }
+  /// Number of the row of the n-th point's lower neighbours along y and z.
+  std::int32_t rowOf(int n, int rowsPerLayer) const { return lower[1][n] + rowsPerLayer * lower[2][n]; }
   CellShares operator[](int n) const {
     return {{{lower[0][n], fraction[0][n]}, {lower[1][n], fraction[1][n]}, {lower[2][n], fraction[2][n]}}};
   }
@@ -62,12 +64,7 @@ struct SplatPoint {
       : fraction{share[0].fraction, share[1].fraction, share[2].fraction}, lower(share[0].lower), amount(amount_) {}
 };
 
-/// Number of the row of the lower neighbours along y and z.
-inline std::int32_t rowOf(const CellShares& share, int rowsPerLayer) {
-  return share[1].lower + rowsPerLayer * share[2].lower;
-}
-
-/// Adds points, sorted by rowOf, to the cells, layer after layer. The sums are made in the points' order.
+/// Adds points, sorted by their rows, to the cells, layer after layer. The sums are made in the points' order.
 template <int channels>
 class LayerSplat {
  public:

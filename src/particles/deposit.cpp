@@ -72,22 +72,22 @@ class DepositPoints {
   /// Rows of cells; -1 for what burns nothing.
   void rowsOf(const Vec3d* places, const double* burnt, int count, std::int32_t* rows) const {
     ShareRun share;
-    setShares(places, count, share);
+    setShares(places, count, anySolids_ ? 0 : 1, share);  // of rows nothing along x counts but solids
     runWide([&] {
-      for (int n = 0; n < count; ++n) rows[n] = burnt[n] > 0 ? rowOf(share[n], solid_.size.y) : -1;
+      for (int n = 0; n < count; ++n) rows[n] = burnt[n] > 0 ? share.rowOf(n, solid_.size.y) : -1;
     });
   }
   void make(const Vec3d* places, const double* burnt, int count, SplatPoint<1>* points) const {
     ShareRun share;
-    setShares(places, count, share);
+    setShares(places, count, 0, share);
     for (int n = 0; n < count; ++n) points[n] = {share[n], {static_cast<float>(burnt[n])}};
   }
 
  private:
-  void setShares(const Vec3d* places, int count, ShareRun& share) const {
+  void setShares(const Vec3d* places, int count, int firstAxis, ShareRun& share) const {
     const double perCell = 1 / solid_.cellSize;
     runWide([&] {
-      for (int axis = 0; axis < 3; ++axis)
+      for (int axis = firstAxis; axis < 3; ++axis)
         share.set(axis, count, solid_.size[axis],
                   [place = &places->x + axis, origin = solid_.origin[axis], perCell](int n) {
                     return (place[3 * n] - origin) * perCell;
@@ -166,7 +166,10 @@ void depositBurnt(const ParticleSet& particles, const std::vector<double>& burnt
   task.finish = [&](int j, int k, const CellSpan& piece, const CellSpan&, const float* mass) {
     float* row = &rate(0, j, k);
     const std::uint8_t* blocked = &solid(0, j, k);
-    for (int i = piece.first; i < piece.end; ++i) row[i] = blocked[i] ? 0.f : mass[i] * perVolume;
+    runWide([=] {
+#pragma GCC ivdep
+      for (int i = piece.first; i < piece.end; ++i) row[i] = blocked[i] ? 0.f : mass[i] * perVolume;
+    });
   };
   blurSeparably(task);
 }

@@ -226,16 +226,20 @@ bool sameBits(const ParticleVolume& a, const ParticleVolume& b) {
 }
 
 TEST(ParticleVolume, HasTheSameBitsForAnyNumberOfThreadsAndAnyVectors) {
-  const auto settings = smallVolume();
+  auto settings = smallVolume();
   const auto particles = spreadParticles(2000, settings, 7);
-  const auto expected = splatParticles(particles, settings, equalMass, mixedColour);
   const VectorPath before = vectorPath();
-  for (const int threads : {1, 2, 5})
-    for (const VectorPath path : {VectorPath::plain, VectorPath::avx2, VectorPath::avx512}) {
-      const ThreadLimit limit(threads);
-      forceVectorPath(path);
-      EXPECT_TRUE(sameBits(splatParticles(particles, settings, equalMass, mixedColour), expected));
-    }
+  for (const int width : {0, 3, 5, 7, 9}) {  // any, and those with loops of their own
+    settings.filterSize = width;
+    forceVectorPath(VectorPath::plain);
+    const auto expected = splatParticles(particles, settings, equalMass, mixedColour);
+    for (const int threads : {1, 2, 5})
+      for (const VectorPath path : {VectorPath::plain, VectorPath::avx2, VectorPath::avx512}) {
+        const ThreadLimit limit(threads);
+        forceVectorPath(path);
+        EXPECT_TRUE(sameBits(splatParticles(particles, settings, equalMass, mixedColour), expected)) << width;
+      }
+  }
   forceVectorPath(before);
 }
 
