@@ -104,7 +104,14 @@ void correctStep(const Flow& flow, const PaddedGrid& old, const PaddedGrid& pred
   });
 }
 
-/// What created gas brings: sum of (s - ambient) div u, times h^2 for the caller's h.
+/// Whether a sample of a row differs.
+bool anyOther(const float* row, int count, float value) {
+  std::uint32_t found = 0;
+  for (int i = 0; i < count; ++i) found |= std::bit_cast<std::uint32_t>(row[i]) ^ std::bit_cast<std::uint32_t>(value);
+  return found != 0;
+}
+
+/// What created gas brings: sum of (s - ambient) div u, times h^2 for the caller's h. In most of a box all is ambient.
 double createdContent(const PaddedGrid& scalar, const ScalarFlow& flow, float ambient) {
   const Vec3i size = flow.size();
   return parallelSum(size.z, 1, [&](std::int64_t k, std::int64_t) {
@@ -113,6 +120,7 @@ double createdContent(const PaddedGrid& scalar, const ScalarFlow& flow, float am
       for (int j = 0; j < size.y; ++j) {
         const auto carrier = flow.row(j, static_cast<int>(k));
         const float* s = scalar.row(j, static_cast<int>(k));
+        if (!anyOther(s, size.x, ambient)) continue;
         sum += laneSum(size.x, [&](std::int64_t i) {
           return carrier.closed(i) ? 0.0f : (s[i] - ambient) * carrier.divergence(i);
         });
