@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "base/named_vectors.h"
+
 namespace brisance::blur {
 
 constexpr int widestFloats = 16;  ///< what the widest vectors hold; sums come in pieces of as many
@@ -11,14 +13,9 @@ constexpr int largestFixed = 4;   ///< filters up to this radius have loops of t
 constexpr int vectorsAlong = 4;   ///< of a row, the sums of which stay in registers
 constexpr int pieceAlong = vectorsAlong * widestFloats;
 
-/// Named as vectors, since the compiler would otherwise run along the filter, one cell at a time. Not for `auto`, which
-/// forgets that they need not be aligned.
+/// Named as vectors, since the compiler would otherwise run along the filter, one cell at a time.
 template <int floats>
-struct Vectors {
-  typedef float Type __attribute__((vector_size(floats * sizeof(float)), aligned(sizeof(float)), may_alias));
-  static const Type& at(const float* numbers) { return *reinterpret_cast<const Type*>(numbers); }
-  static Type& at(float* numbers) { return *reinterpret_cast<Type*>(numbers); }
-};
+using Vectors = NamedVectors<floats>;
 
 /// Where whole pieces from `first` on end, that hold all until `end`.
 constexpr int endOfPieces(int first, int end, int piece) { return first + (end - first + piece - 1) / piece * piece; }
