@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/row_lines.h"
 #include "base/vector_path.h"
 #include "grid/interpolate.h"
 
@@ -45,11 +46,13 @@ inline void findCorners(const PlaceCells& along, int count, const Grid3<float>& 
     corners.first[n] = along[0]->cell[n] + along[1]->cell[n] * up + along[2]->cell[n] * back;
 }
 
-/// Plain loads: cheaper here than the gathers of wide vectors, and two values each.
+/// Plain loads: cheaper here than the gathers of wide vectors, and two values each. Places in order of their rows come
+/// to the row after these next, which is asked for.
 inline void loadPairs(const Grid3<float>& grid, int count, Corners& corners) {
   const std::int64_t up = grid.stride(1), back = grid.stride(2);
   for (int n = 0; n < count; ++n) {
     const float* at = grid.values.data() + corners.first[n];
+    fetchToRead(back + 2 * up, at);
     std::memcpy(corners.pair[0] + 2 * n, at, 2 * sizeof(float));
     std::memcpy(corners.pair[1] + 2 * n, at + up, 2 * sizeof(float));
     std::memcpy(corners.pair[2] + 2 * n, at + back, 2 * sizeof(float));

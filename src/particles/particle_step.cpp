@@ -92,7 +92,11 @@ class BlockStep {
       way_.cellsOf(block_.place, count, block_.from);
       way_.cellsOf(block_.goal, count, block_.to);
     });
-    for (int n = 0; n < count; ++n) gone[n] = !way_.move(block_.from, block_.to, n, block_.place, block_.goal);
+    const int crossing = WayThroughCells::listCrossing(block_.from, block_.to, count, block_.crossing);
+    for (int m = 0; m < crossing; ++m) {
+      const int n = block_.crossing[m];
+      gone[n] = !way_.move(block_.from, block_.to, n, block_.place, block_.goal);
+    }
     interpolateMany(gas_.temperature, block_.goal, count, block_.around);
     runWide([&] { store(first, count); });
   }
