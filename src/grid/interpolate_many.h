@@ -4,6 +4,7 @@
 #include <span>
 
 #include "grid/grid3.h"
+#include "grid/mac_velocity.h"
 
 namespace brisance {
 
@@ -16,6 +17,14 @@ struct PlaceBlock {
 /// Trilinear values at `count` places, in single precision; beyond the samples the nearest ones hold. The same bits
 /// with any vectors.
 void interpolateMany(const Grid3<float>& grid, const PlaceBlock& places, int count, float* values);
+
+/// Velocities at some places.
+struct WindBlock {
+  float along[3][PlaceBlock::most];  ///< [m/s]
+};
+
+/// The same for the components of a velocity, which share half of their cells along the axes.
+void interpolateMany(const MacVelocity& velocity, const PlaceBlock& places, int count, WindBlock& wind);
 
 /// The same for any number of places.
 void interpolateMany(const Grid3<float>& grid, std::span<const Vec3d> places, float* values);

@@ -38,8 +38,9 @@ constexpr int blockParticles = PlaceBlock::most;  // whose numbers stay in the n
 /// Some particles, one array per number, so that loops over them become loops over vectors.
 struct Block {
   PlaceBlock place, goal;
-  CellBlock from, to;  // the cells of place and goal
-  float wind[3][blockParticles];
+  CellBlock from, to;                     // the cells of place and goal
+  std::int32_t crossing[blockParticles];  // those for which they differ
+  WindBlock wind;
   double velocity[3][blockParticles];
   double resistance[blockParticles];  // k [1/m]; negative for what has no mass and moves with the gas
   float around[blockParticles];       // [K]
@@ -59,7 +60,7 @@ inline double lengthOf(double x, double y, double z) { return std::sqrt(x * x + 
 
 void dragBlock(Block& b, int count, double dt) {
   for (int n = 0; n < count; ++n) {
-    const double g[3] = {b.wind[0][n], b.wind[1][n], b.wind[2][n]};
+    const double g[3] = {b.wind.along[0][n], b.wind.along[1][n], b.wind.along[2][n]};
     const double d[3] = {g[0] - b.velocity[0][n], g[1] - b.velocity[1][n], g[2] - b.velocity[2][n]};
     const bool massless = b.resistance[n] < 0;
     const DragFactors drag = dragFactors(lengthOf(d[0], d[1], d[2]), massless ? 0 : b.resistance[n], dt);
@@ -85,14 +86,17 @@ class BlockStep {
 
   void run(std::int64_t first, int count, std::uint8_t* gone) {
     runWide([&] { load(first, count); });
-    for (int axis = 0; axis < 3; ++axis)
-      interpolateMany(gas_.velocity.component(axis), block_.place, count, block_.wind[axis]);
+    interpolateMany(gas_.velocity, block_.place, count, block_.wind);
     runWide([&] {
       dragBlock(block_, count, dt_);
       way_.cellsOf(block_.place, count, block_.from);
       way_.cellsOf(block_.goal, count, block_.to);
     });
-    for (int n = 0; n < count; ++n) gone[n] = !way_.move(block_.from, block_.to, n, block_.place, block_.goal);
+    const int crossing = WayThroughCells::listCrossing(block_.from, block_.to, count, block_.crossing);
+    for (int m = 0; m < crossing; ++m) {
+      const int n = block_.crossing[m];
+      gone[n] = !way_.move(block_.from, block_.to, n, block_.place, block_.goal);
+    }
     interpolateMany(gas_.temperature, block_.goal, count, block_.around);
     runWide([&] { store(first, count); });
   }

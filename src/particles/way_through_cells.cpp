@@ -1,6 +1,8 @@
 #include "particles/way_through_cells.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace brisance {
 
@@ -12,22 +14,22 @@ WayThroughCells::WayThroughCells(const GasAround& gas)
       cellSize_(openShare_.u.cellSize),
       perCell_(1 / cellSize_) {}
 
-/// The usual way: at most one cell along each axis, inside the box, with nothing between.
+/// The usual way: at most one cell along each axis, inside the box, with nothing between. All three faces are looked
+/// at, crossed or not, since a branch for each would be guessed wrong every third time.
 bool WayThroughCells::toFreeNeighbour(const CellBlock& from, const CellBlock& to, int n) const {
-  int cell[3] = {from.along[0][n], from.along[1][n], from.along[2][n]};
-  for (int axis = 0; axis < 3; ++axis) {
-    const int end = to.along[axis][n], step = end - cell[axis];
-    if (end < 0 || end >= cells_[axis] || step < -1 || step > 1) return false;
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const int end = to.along[axis][n];
-    if (end == cell[axis]) continue;
-    int upper[3] = {cell[0], cell[1], cell[2]};
-    upper[axis] = std::max(end, cell[axis]);
-    if (openShare_.component(axis)(upper[0], upper[1], upper[2]) == 0) return false;
-    cell[axis] = end;
-  }
-  return true;
+  const int begin[3] = {from.along[0][n], from.along[1][n], from.along[2][n]},
+            end[3] = {to.along[0][n], to.along[1][n], to.along[2][n]};
+  bool near = true;
+  for (int axis = 0; axis < 3; ++axis)
+    near = near & (end[axis] >= 0) & (end[axis] < cells_[axis]) & (std::abs(end[axis] - begin[axis]) <= 1);
+  if (!near) return false;
+  const auto upper = [&](int axis) { return std::max(begin[axis], end[axis]); };
+  const int y = std::clamp(begin[1], 0, cells_.y - 1), z = std::clamp(begin[2], 0, cells_.z - 1);
+  const float open[3] = {openShare_.u(upper(0), y, z), openShare_.v(end[0], upper(1), z),
+                         openShare_.w(end[0], end[1], upper(2))};
+  bool free = true;
+  for (int axis = 0; axis < 3; ++axis) free = free & ((begin[axis] == end[axis]) | (open[axis] != 0));
+  return free;
 }
 
 bool WayThroughCells::search(int n, const PlaceBlock& place, PlaceBlock& goal) const {

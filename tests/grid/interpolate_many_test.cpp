@@ -56,6 +56,27 @@ TEST(InterpolateMany, IsExactForALinearField) {
     ASSERT_NEAR(values[n], (places[n].x + 10 * places[n].y - 3 * places[n].z) / 0.5, 1e-5 * 10);
 }
 
+TEST(InterpolateMany, GivesAVelocityTheBitsOfItsComponents) {
+  const Random random(4, Stream::test);
+  for (const Vec3i cells : {Vec3i(9, 7, 5), Vec3i(1, 4, 3)}) {
+    MacVelocity velocity(cells, {-1, 2, 0.5}, 0.25);
+    for (int axis = 0; axis < 3; ++axis)
+      for (float& sample : velocity.component(axis).values)
+        sample = static_cast<float>(random.normal(&sample - &velocity.component(axis).values[0] + 1000 * axis));
+    const std::vector<Vec3d> places = placesIn(velocity.u, PlaceBlock::most);
+    PlaceBlock block;
+    for (int n = 0; n < PlaceBlock::most; ++n)
+      for (int axis = 0; axis < 3; ++axis) block.along[axis][n] = places[n][axis];
+    WindBlock wind;
+    interpolateMany(velocity, block, PlaceBlock::most, wind);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<float> expected(places.size());
+      interpolateMany(velocity.component(axis), places, expected.data());
+      EXPECT_EQ(std::vector<float>(wind.along[axis], wind.along[axis] + PlaceBlock::most), expected);
+    }
+  }
+}
+
 TEST(InterpolateMany, HasTheSameBitsWithAnyVectors) {
   const Grid3<float> grid = noise({12, 9, 15});
   const std::vector<Vec3d> places = placesIn(grid, 1000);
