@@ -55,8 +55,9 @@ void FlowLook::addSums(const Row& at) {
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const bool solid = solids && row.solids[i];
-    const double phi = sources ? row.phi[i] : 0.0f, along = double(row.u[i + 1]) - row.u[i], up = double(row.vUpper[i]) - row.v[i],
-                 across = double(row.wUpper[i]) - row.w[i], lack = ((along + up) + across) * perLength - phi;
+    const double phi = sources ? row.phi[i] : 0.0f, along = double(row.u[i + 1]) - row.u[i],
+                 up = double(row.vUpper[i]) - row.v[i], across = double(row.wUpper[i]) - row.w[i],
+                 lack = ((along + up) + across) * perLength - phi;
     const double lackSquared = lack * lack, phiSquared = phi * phi;
     wrong[i] += solid ? 0 : lackSquared;
     if constexpr (sources) {
