@@ -145,7 +145,8 @@ async function growsWithTheRun(url) {
   await page.route('**/data/state.json', route => route.fulfill({json: {frames, planned: 12}}));
   await page.goto(url);
   await page.waitForFunction(() => window.brisance?.moments.count === 3);
-  expect(await page.locator('#live').isVisible(), 'a run that goes on is said to be live');
+  const saysSo = await page.locator('#live').waitFor({state: 'visible'}).then(() => true, () => false);
+  expect(saysSo, 'a run that goes on is said to be live');
   frames = 12;
   await page.waitForFunction(() => window.brisance.moments.known.filter(Boolean).length === 12);
   await page.waitForFunction(() => document.getElementById('live').hidden);
