@@ -86,13 +86,12 @@ class SpeedSweep {
   /// The row of a component's faces below (j, k) along y or z.
   template <int component, int axis>
   FaceRow<2> facesBelow(int j, int k, Room& room) const {
-    constexpr int other = component == axis ? 0 : component;  // the axis along which the component's cells are halved
     RowRing<3, 3>& old = room.old;
     const float *below = old.row(component, j - (axis == 1), k - (axis == 2)), *above = old.row(component, j, k);
     if constexpr (component == axis) return {{below, above}, below, above};
     const float* across = old.row(axis, j, k);
     if constexpr (component == 0) return {{across - 1, across}, below, above};
-    return {{old.row(axis, j - (other == 1), k - (other == 2)), across}, below, above};
+    return {{old.row(axis, j - (component == 1), k - (component == 2)), across}, below, above};
   }
 
   template <int floats, int component, int axis>
