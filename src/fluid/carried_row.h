@@ -50,31 +50,36 @@ struct DonorPair {
   }
 };
 
+/// Samples [first, end) of a row of `count`. Both lie between lines of the cache, or at the row's ends.
+struct RowPart {
+  std::int64_t first, end, count;
+};
+
 /// Lets what a row of faces gives the samples above wait for them.
 template <int floats, int speeds>
-inline void awaitRow(std::int64_t count, const FaceRow<speeds>& face, float upwindWeight, float* waiting) {
+inline void awaitRow(const RowPart& part, const FaceRow<speeds>& face, float upwindWeight, float* waiting) {
   using V = NamedVectors<floats>;
   if constexpr (floats > 1)
-    if (count < floats) return awaitRow<1>(count, face, upwindWeight, waiting);
+    if (part.count < floats) return awaitRow<1>(part, face, upwindWeight, waiting);
   const auto block = [&](std::int64_t i, std::int64_t slot) {
     const DonorPair<floats, speeds> pair(face.speed, upwindWeight, i);
     V::at(waiting + slot) = pair.above * (V::at(face.above + i) - V::at(face.below + i));
   };
-  std::int64_t i = 0;
-  for (; i + floats <= count; i += floats) block(i, i);
-  if (i < count) block(count - floats, i);
+  std::int64_t i = part.first;
+  for (; i + floats <= part.end; i += floats) block(i, i);
+  if (i < part.end) block(part.count - floats, i);
 }
 
-/// s - dt (u . grad) s of a row of `count` samples of each field, for c = dt / (2 h speeds): calls
+/// s - dt (u . grad) s of a part of a row of samples of each field, for c = dt / (2 h speeds): calls
 /// visit.operator()<floats>(i, s) for blocks of them, and before each fetch(i). Where the last block is not a whole
 /// one, some samples are visited twice; what waits for it has a place of its own.
 template <int floats, int speeds, int fields, class Fetch, class Visit>
-inline void carryRow(std::int64_t count, const SpeedsAbove<speeds>& speedsAbove, const SamplesAbove (&samples)[fields],
+inline void carryRow(const RowPart& part, const SpeedsAbove<speeds>& speedsAbove, const SamplesAbove (&samples)[fields],
                      float upwindWeight, float c, const Fetch& fetch, const Visit& visit) {
   using V = NamedVectors<floats>;
   using Vector = typename V::Type;
   if constexpr (floats > 1)
-    if (count < floats) return carryRow<1>(count, speedsAbove, samples, upwindWeight, c, fetch, visit);
+    if (part.count < floats) return carryRow<1>(part, speedsAbove, samples, upwindWeight, c, fetch, visit);
   Vector before[fields];  // what the faces along x before a block give it, in the last number
   const auto begin = [&](std::int64_t i) {
     float speed = speedsAbove.row[0][0][i - 1];
@@ -106,13 +111,14 @@ inline void carryRow(std::int64_t count, const SpeedsAbove<speeds>& speedsAbove,
     }
     visit.template operator()<floats>(i, carried);
   };
-  std::int64_t i = 0;
-  begin(0);
+  const std::int64_t end = part.end;
+  std::int64_t i = part.first;
+  begin(i);
 #pragma GCC unroll 1
-  for (; i + floats <= count; i += floats) block(i, i);
-  if (i == count) return;
-  begin(count - floats);
-  block(count - floats, i);
+  for (; i + floats <= end; i += floats) block(i, i);
+  if (i == end) return;
+  begin(part.count - floats);
+  block(part.count - floats, i);
 }
 
 }  // namespace brisance

@@ -96,7 +96,8 @@ class SpeedSweep {
 
   template <int floats, int component, int axis>
   void await(const Row& at, Room& room) const {
-    awaitRow<floats>(out_.component(component).size.x, facesBelow<component, axis>(at.j, at.k, room), weight_,
+    const std::int64_t count = out_.component(component).size.x;
+    awaitRow<floats>({0, count, count}, facesBelow<component, axis>(at.j, at.k, room), weight_,
                      room.waiting(component, axis, at.inStrip));
   }
 
@@ -142,13 +143,14 @@ class SpeedSweep {
       fetchToRead(i, copiedLater);
       fetchToWrite(i + count, to);  // the next row lies behind
     };
-    carryRow<floats>(count, speedsAbove, fields, weight_, c_, fetch, [=]<int n>(std::int64_t i, const auto& carried) {
-      using V = NamedVectors<n>;
-      typename V::Type moved = carried[0];
-      gain.template operator()<n>(i, moved);
-      const typename V::Type share = V::at(open + i), here = V::at(samples.here + i);
-      V::at(to + i) = share > 0 ? moved : here;
-    });
+    carryRow<floats>({0, count, count}, speedsAbove, fields, weight_, c_, fetch,
+                     [=]<int n>(std::int64_t i, const auto& carried) {
+                       using V = NamedVectors<n>;
+                       typename V::Type moved = carried[0];
+                       gain.template operator()<n>(i, moved);
+                       const typename V::Type share = V::at(open + i), here = V::at(samples.here + i);
+                       V::at(to + i) = share > 0 ? moved : here;
+                     });
   }
 
   const FluidState& gas_;
