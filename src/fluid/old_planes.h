@@ -22,7 +22,7 @@ class Slabs {
   Slab operator[](int n) const { return {n * planesEach, std::min(planes_, (n + 1) * planesEach)}; }
 
  private:
-  static constexpr int planesEach = 8;
+  static constexpr int planesEach = 16;
   int planes_;
 };
 
