@@ -65,12 +65,13 @@ RowSpan ChangingSpans::at(int j, int k) const {
   return around_[0] ? RowSpan{0, cells_.x} : wholeLines(span);
 }
 
-RowSpan ChangingSpans::wholeLines(RowSpan span) const {
+RowSpan ChangingSpans::wholeLines(const RowSpan& span) const {
   const auto floor = [](int cells) { return std::max(cells, 0) / lineFloats * lineFloats; };
-  // The cells of the last line, where it is not full, are gone over together with others before them.
-  const int last = cells_.x % lineFloats ? std::max(cells_.x - lineFloats, 0) : cells_.x;
-  if (span.end > last) return {floor(std::min(span.first, last)), cells_.x};
-  return {floor(span.first), std::min(cells_.x, floor(span.end + lineFloats - 1))};
+  RowSpan lines{floor(span.first), std::min(cells_.x, floor(span.end + lineFloats - 1))};
+  // Where the last line is not full, vectors go over it together with cells before it.
+  if (const int lastVector = cells_.x - lineFloats; cells_.x % lineFloats && lines.end > lastVector)
+    lines = {std::min(lines.first, floor(lastVector)), cells_.x};
+  return lines;
 }
 
 }  // namespace brisance

@@ -29,7 +29,7 @@ class ChangingSpans {
 
  private:
   const RowSpan& differing(int j, int k) const { return differing_[std::int64_t{cells_.y} * k + j]; }
-  RowSpan wholeLines(RowSpan span) const;
+  RowSpan wholeLines(const RowSpan& span) const;
 
   Vec3i cells_;
   bool around_[3];  ///< periodic axes
