@@ -15,6 +15,14 @@ inline float select(bool condition, float yes, float no) {
   return std::bit_cast<float>((std::bit_cast<std::uint32_t>(yes) & mask) | (std::bit_cast<std::uint32_t>(no) & ~mask));
 }
 
+/// Whether any number has other bits than `value`.
+inline bool anyOther(const float* numbers, std::int64_t count, float value) {
+  std::uint32_t found = 0;
+  for (std::int64_t i = 0; i < count; ++i)
+    found |= std::bit_cast<std::uint32_t>(numbers[i]) ^ std::bit_cast<std::uint32_t>(value);
+  return found != 0;
+}
+
 /// Asks for a line of each.
 template <class... Samples>
 inline void fetchToRead(std::int64_t i, const Samples*... rows) {

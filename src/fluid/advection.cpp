@@ -5,6 +5,7 @@
 #include "base/row_sum.h"
 #include "base/vector_path.h"
 #include "fluid/donor_cell.h"
+#include "fluid/ghost_rows.h"
 #include "fluid/semi_lagrangian.h"
 
 namespace brisance {
@@ -20,13 +21,24 @@ struct RowsOut {
   float* at(int j, int k) const { return first + j * row + k * plane; }
 };
 
-/// Calls work(j, k) for every row, compiled for wide vectors.
-template <class Work>
-void forRows(const Vec3i& size, const Work& work) {
+struct AllRows {
+  bool operator()(int, int) const { return true; }
+};
+/// Those near a sample that is not the usual one.
+struct RowsWithin {
+  const BusyRows& busy;
+  int rows;
+  bool operator()(int j, int k) const { return busy.within(rows, j, k); }
+};
+
+/// Calls work(j, k) for every row that is wanted, compiled for wide vectors.
+template <class Wanted, class Work>
+void forRows(const Vec3i& size, const Wanted& wanted, const Work& work) {
   parallelFor(0, size.z, 1, [&](std::int64_t first, std::int64_t last) {
     for (int k = static_cast<int>(first); k < last; ++k)
       runWide([&] {
-        for (int j = 0; j < size.y; ++j) work(j, k);
+        for (int j = 0; j < size.y; ++j)
+          if (wanted(j, k)) work(j, k);
       });
   });
 }
@@ -49,11 +61,11 @@ struct PressurePush {
 };
 
 /// out = base - c (h u . grad) from - push, c = dt / h; what is closed keeps the base.
-template <class Flow, class Push>
+template <class Flow, class Push, class Wanted = AllRows>
 void donorStep(const Flow& flow, const PaddedGrid& base, const PaddedGrid& from, float c, float weight,
-               const Push& push, RowsOut out) {
+               const Push& push, RowsOut out, const Wanted& wanted = {}) {
   const int count = flow.size().x;
-  forRows(flow.size(), [&](int j, int k) {
+  forRows(flow.size(), wanted, [&](int j, int k) {
     const auto carrier = flow.row(j, k);
     const auto pushed = push.row(j, k);
     const Row s = rowOf(from, j, k);
@@ -84,12 +96,12 @@ inline float mostAround(const Row& s, std::int64_t i) {
 /// A step back from the predicted values misses the old ones by twice what the prediction is off: with s' predicted and
 /// s" reached again from it, new = s' + (s - s") / 2, where s" = s' + c (h u . grad, downwind) s'. A push that the
 /// prediction has had is taken off again.
-template <class Flow, class Push>
+template <class Flow, class Push, class Wanted = AllRows>
 void correctStep(const Flow& flow, const PaddedGrid& old, const PaddedGrid& predicted, float c, bool clamped,
-                 const Push& push, RowsOut out) {
+                 const Push& push, RowsOut out, const Wanted& wanted = {}) {
   const int count = flow.size().x;
   constexpr float downwind = -1;
-  forRows(flow.size(), [&](int j, int k) {
+  forRows(flow.size(), wanted, [&](int j, int k) {
     const auto carrier = flow.row(j, k);
     const auto pushed = push.row(j, k);
     const Row s = rowOf(old, j, k), p = rowOf(predicted, j, k);
@@ -104,23 +116,16 @@ void correctStep(const Flow& flow, const PaddedGrid& old, const PaddedGrid& pred
   });
 }
 
-/// Whether a sample of a row differs.
-bool anyOther(const float* row, int count, float value) {
-  std::uint32_t found = 0;
-  for (int i = 0; i < count; ++i) found |= std::bit_cast<std::uint32_t>(row[i]) ^ std::bit_cast<std::uint32_t>(value);
-  return found != 0;
-}
-
-/// What created gas brings: sum of (s - ambient) div u, times h^2 for the caller's h. In most of a box all is ambient.
-double createdContent(const PaddedGrid& scalar, const ScalarFlow& flow, float ambient) {
+/// What created gas brings: sum of (s - ambient) div u, times h^2 for the caller's h. All is ambient but in busy rows.
+double createdContent(const PaddedGrid& scalar, const ScalarFlow& flow, float ambient, const RowsWithin& busy) {
   const Vec3i size = flow.size();
   return parallelSum(size.z, 1, [&](std::int64_t k, std::int64_t) {
     double sum = 0;
     runWide([&] {
       for (int j = 0; j < size.y; ++j) {
+        if (!busy(j, static_cast<int>(k))) continue;
         const auto carrier = flow.row(j, static_cast<int>(k));
         const float* s = scalar.row(j, static_cast<int>(k));
-        if (!anyOther(s, size.x, ambient)) continue;
         sum += laneSum(size.x, [&](std::int64_t i) {
           return carrier.closed(i) ? 0.0f : (s[i] - ambient) * carrier.divergence(i);
         });
@@ -131,16 +136,20 @@ double createdContent(const PaddedGrid& scalar, const ScalarFlow& flow, float am
 }
 
 /// What leaves through one of the box's faces: sum of the outward flux of (s - ambient), times h^2 for the caller's h.
-double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, int face, float ambient, float weight) {
+double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, int face, float ambient, float weight,
+                   const RowsWithin& busy) {
   const int axis = face / 2, b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
   const Grid3<float>& normal = velocity.component(axis);
   const std::int64_t step = padded.values.stride(axis);
   const int layer = face % 2 ? normal.size[axis] - 1 : 0;
+  const int cell = face % 2 ? layer - 1 : 0;  // along the axis, inside
   constexpr int rows = 32;
   const double sum = parallelSum(normal.size[c], rows, [&](std::int64_t first, std::int64_t last) {
     double part = 0;
     for (std::int64_t q = first; q < last; ++q)
       for (int p = 0; p < normal.size[b]; ++p) {
+        const int other = static_cast<int>(q);
+        if (!(axis == 0 ? busy(p, other) : axis == 1 ? busy(cell, other) : busy(other, cell))) continue;
         const float speed = normal.values[layer * normal.stride(axis) + p * normal.stride(b) + q * normal.stride(c)];
         const float* upper = padded.values.values.data() + (layer + 1) * step + (p + 1) * padded.values.stride(b) +
                              (q + 1) * padded.values.stride(c);
@@ -151,9 +160,10 @@ double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, int fa
   return face % 2 ? sum : -sum;
 }
 
-double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, float ambient, float weight) {
+double outwardFlux(const PaddedGrid& padded, const MacVelocity& velocity, float ambient, float weight,
+                   const RowsWithin& busy) {
   double sum = 0;
-  for (int face = 0; face < 6; ++face) sum += outwardFlux(padded, velocity, face, ambient, weight);
+  for (int face = 0; face < 6; ++face) sum += outwardFlux(padded, velocity, face, ambient, weight, busy);
   return sum;
 }
 
@@ -172,19 +182,34 @@ struct ScalarTransport {
   ScalarFlow flow{gas};
 
   float dtOverH() const { return static_cast<float>(dt / settings.cellSize); }
-  void fillGhosts(PaddedGrid& padded) const { fillScalarGhosts(padded, gas.velocity, settings.faces, ambient); }
+  void fillGhosts(PaddedGrid& padded, const RowsWithin& wanted) const {
+    const GhostRows ends(gas.temperature, -1, ambient, gas.velocity, settings.faces);  // alike for all scalars
+    forRows(flow.size(), wanted,
+            [&](int j, int k) { ends.addEnds(ends.rowsOfCrossing(j, k), gas.velocity.u, padded.row(j, k)); });
+    fillScalarGhosts(padded, gas.velocity, settings.faces, ambient);
+  }
   /// `share` of the step carried these values, by differences of some weight.
   void account(const PaddedGrid& values, float weight, double share) const {
     if (!balance) return;
     const double perSpeed = share * dt * settings.cellSize * settings.cellSize;
-    balance->in += perSpeed * createdContent(values, flow, ambient);
-    balance->out += perSpeed * outwardFlux(values, gas.velocity, ambient, weight);
+    const RowsWithin busy{scratch.busy, 2};  // a pass reaches one row further, and its faces the next
+    balance->in += perSpeed * createdContent(values, flow, ambient, busy);
+    balance->out += perSpeed * outwardFlux(values, gas.velocity, ambient, weight, busy);
   }
   /// stage = old - part of the step by the differences of `from`
   void part(float share, const PaddedGrid& from, float weight, PaddedGrid& stage) const {
     resizePadded(stage, scratch.newScalar);
-    donorStep(flow, scratch.scalar, from, share * dtOverH(), weight, NoPush{}, RowsOut(stage));
-    fillGhosts(stage);
+    donorStep(flow, scratch.scalar, from, share * dtOverH(), weight, NoPush{}, RowsOut(stage),
+              RowsWithin{scratch.busy, 1});
+    beAmbient(stage);
+    fillGhosts(stage, {scratch.busy, 3});
+  }
+  /// Rows that are read, but not reached within a pass.
+  void beAmbient(PaddedGrid& stage) const {
+    const int count = flow.size().x;
+    forRows(
+        flow.size(), [&](int j, int k) { return scratch.busy.within(3, j, k) && !scratch.busy.within(1, j, k); },
+        [&](int j, int k) { std::fill_n(stage.row(j, k), count, ambient); });
   }
 
   void by(const DonorCell& scheme) const {
@@ -201,7 +226,8 @@ struct ScalarTransport {
   void by(const MacCormack& scheme) const {
     PaddedGrid& predicted = scratch.stage[0].component[0];
     part(1, scratch.scalar, 1, predicted);
-    correctStep(flow, scratch.scalar, predicted, dtOverH(), scheme.clamped, NoPush{}, RowsOut(scratch.newScalar));
+    correctStep(flow, scratch.scalar, predicted, dtOverH(), scheme.clamped, NoPush{}, RowsOut(scratch.newScalar),
+                RowsWithin{scratch.busy, 2});
     account(scratch.scalar, 1, 0.5);
     account(predicted, -1, 0.5);
   }
@@ -217,10 +243,23 @@ void carry(Grid3<float>& scalar, const ScalarTransport& transport, Paths paths) 
     scratch.velocity.fill(transport.gas.velocity, transport.settings);
     tracePaths(scratch.velocity, transport.settings.faces, transport.dt, scratch.paths);
   }
-  padScalar(scratch.scalar, scalar, transport.gas.velocity, transport.settings.faces, transport.ambient);
+  BusyRows& busy = scratch.busy;
+  if (std::holds_alternative<MacCormack>(transport.settings.advection))
+    busy.find(scalar, transport.ambient, transport.settings.faces);
+  else
+    busy.take(scalar.size);
+  resizePadded(scratch.scalar, scalar);
+  forRows(scalar.size, RowsWithin{busy, 3}, [&](int j, int k) {
+    std::copy_n(&scalar.values[0] + scalar.index(0, j, k), scalar.size.x, scratch.scalar.row(j, k));
+  });
+  transport.fillGhosts(scratch.scalar, {busy, 3});
   if (!(scratch.newScalar.size == scalar.size)) scratch.newScalar = scalar;
   std::visit([&](const auto& scheme) { transport.by(scheme); }, transport.settings.advection);
-  std::swap(scalar.values, scratch.newScalar.values);
+  if (busy.all()) return std::swap(scalar.values, scratch.newScalar.values);
+  forRows(scalar.size, RowsWithin{busy, 2}, [&](int j, int k) {
+    std::copy_n(&scratch.newScalar.values[0] + scalar.index(0, j, k), scalar.size.x,
+                &scalar.values[0] + scalar.index(0, j, k));
+  });
 }
 
 template <class Work>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/report.h"
+#include "fluid/busy_rows.h"
 #include "fluid/fluid_state.h"
 #include "fluid/padded_grid.h"
 #include "fluid/semi_lagrangian.h"
@@ -17,6 +18,7 @@ struct AdvectionScratch {
   MacVelocity newVelocity;
   Grid3<float> newScalar;
   FlowPaths paths;  ///< of semi_lagrangian
+  BusyRows busy;    ///< of the scalar at hand
 };
 
 /// Whether the scratch knows the paths of the flow: it does when the last transport had the same velocity and step.

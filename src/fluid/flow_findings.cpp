@@ -1,7 +1,6 @@
 #include "fluid/flow_findings.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "base/parallel.h"
@@ -19,13 +18,6 @@ inline void larger(const typename NamedVectors<floats>::Type& a, const typename 
   NamedVectors<floats>::magnitude(a, one);
   NamedVectors<floats>::magnitude(b, other);
   result = one > other ? one : other;
-}
-/// Whether any is not zero.
-bool anySource(const float* rates, int count) {
-  constexpr std::uint32_t allButSign = 0x7fffffff;
-  std::uint32_t found = 0;
-  for (int i = 0; i < count; ++i) found |= std::bit_cast<std::uint32_t>(rates[i]) & allButSign;
-  return found != 0;
 }
 double sumOfRow(const float* values, int count) {
   double sum = 0;
@@ -108,7 +100,7 @@ void FlowLook::row(int j, int k) {
                 &gas_.divergence(0, j, k),
                 solidsOfRow(gas_.solid, j, k)};
   runWithVectors([&]<int floats>() {
-    const bool sources = anySource(row.phi, gas_.divergence.size.x);
+    const bool sources = anyOther(row.phi, gas_.divergence.size.x, 0);
     if (row.solids)
       sources ? addSums<floats, true, true>(row) : addSums<floats, true, false>(row);
     else

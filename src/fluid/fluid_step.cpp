@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/row_lines.h"
 #include "base/vector_path.h"
 #include "fluid/diffusion.h"
 #include "fluid/forces.h"
@@ -30,12 +31,20 @@ bool anyNotFinite(const Grid3<float>& grid) {
 void addBurnt(FluidState& gas, const Burning& burning, double dt) {
   const float kept = static_cast<float>(portableExp(-dt / burning.flameLifetime));
   const float soot = static_cast<float>(burning.sootPerMass * dt), burnt = static_cast<float>(dt);
-  parallelFor(0, gas.soot.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t n = first; n < last; ++n) {
-      const float rate = gas.burnRate.values[n];
-      gas.soot.values[n] += soot * rate;
-      gas.flame.values[n] = gas.flame.values[n] * kept + burnt * rate;
-    }
+  float *soots = gas.soot.values.data(), *flames = gas.flame.values.data();
+  const float* rates = gas.burnRate.values.data();
+  const std::int64_t row = gas.soot.size.x;
+  parallelFor(0, gas.soot.count() / row, 64, [&](std::int64_t first, std::int64_t last) {
+    runWide([&] {
+      for (std::int64_t begin = first * row; begin < last * row; begin += row) {
+        if (!anyOther(rates + begin, row, 0) && !anyOther(flames + begin, row, 0)) continue;
+#pragma GCC ivdep
+        for (std::int64_t n = begin; n < begin + row; ++n) {
+          soots[n] += soot * rates[n];
+          flames[n] = flames[n] * kept + burnt * rates[n];
+        }
+      }
+    });
   });
 }
 

@@ -143,7 +143,7 @@ void fillSpeedGhosts(PaddedGrid& padded, int axis, const MacVelocity& velocity, 
 }
 
 void fillScalarGhosts(PaddedGrid& padded, const MacVelocity& velocity, const Faces& faces, float ambient) {
-  for (int face = 0; face < 6; ++face) {
+  for (int face = 2; face < 6; ++face) {
     if (faces[face] == FaceKind::periodic)
       wrap(padded.values, face, false);
     else if (faces[face] == FaceKind::open)
@@ -168,12 +168,6 @@ void PaddedVelocity::fill(const MacVelocity& velocity, const FluidSettings& sett
     copyInside(component[axis], velocity.component(axis));
     fillSpeedGhosts(component[axis], axis, velocity, settings);
   }
-}
-
-void padScalar(PaddedGrid& padded, const Grid3<float>& scalar, const MacVelocity& velocity, const Faces& faces,
-               float ambient) {
-  copyInside(padded, scalar);
-  fillScalarGhosts(padded, velocity, faces, ambient);
 }
 
 }  // namespace brisance

@@ -19,8 +19,8 @@ struct PaddedGrid {
 /// 26 m/s through an open window long after the fire). Beyond a periodic face as inside the opposite one.
 void fillSpeedGhosts(PaddedGrid& padded, int axis, const MacVelocity& velocity, const FluidSettings& settings);
 
-/// Ghosts of a scalar: where gas comes in through an open face `ambient`, beyond a periodic one as inside the opposite,
-/// elsewhere as inside.
+/// Ghosts of a scalar beyond the faces across y and z, after those at the ends of rows (ghost_rows.h): where gas comes
+/// in through an open face `ambient`, beyond a periodic one as inside the opposite, elsewhere as inside.
 void fillScalarGhosts(PaddedGrid& padded, const MacVelocity& velocity, const Faces& faces, float ambient);
 
 /// Ghosts of the pressure: p = 0 on an open face, half-way to the ghost.
@@ -36,9 +36,5 @@ struct PaddedVelocity {
   PaddedGrid component[3];
   void fill(const MacVelocity& velocity, const FluidSettings& settings);
 };
-
-/// A scalar with its ghosts.
-void padScalar(PaddedGrid& padded, const Grid3<float>& scalar, const MacVelocity& velocity, const Faces& faces,
-               float ambient);
 
 }  // namespace brisance

@@ -1,8 +1,10 @@
 #include "fluid/temperature.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/row_lines.h"
 #include "base/vector_path.h"
 #include "fluid/cooling.h"
 #include "fluid/diffusion.h"
@@ -20,6 +22,7 @@ double cooled(double theta, double range, double rate, double dt) {
 Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt) {
   if (settings.conductivity > 0) conduct(gas, settings, dt);
   const HeatRow heatRow(settings, dt);
+  const float ambient = static_cast<float>(settings.ambientTemperature);
   const Vec3i n = gas.temperature.size;
   std::vector<HeatRow::Sums> planes(n.z);
   parallelFor(0, n.z, 2, [&](std::int64_t first, std::int64_t last) {
@@ -27,6 +30,7 @@ Balance heatAndCool(FluidState& gas, const FluidSettings& settings, double dt) {
     for (int k = static_cast<int>(first); k < last; ++k)
       for (int j = 0; j < n.y; ++j)
         runWide([&] {
+          if (!anyOther(&gas.temperature(0, j, k), n.x, ambient) && !anyOther(&gas.heatRate(0, j, k), n.x, 0)) return;
           const auto sums =
               heatRow(&gas.temperature(0, j, k), &gas.heatRate(0, j, k), &gas.solid.inside(0, j, k), n.x, room.data());
           planes[k].heated += sums.heated;
@@ -49,7 +53,12 @@ double heatContent(const FluidState& gas, const FluidSettings& settings) {
   const double sum = parallelSum(gas.temperature.count(), 1 << 14, [&](std::int64_t first, std::int64_t last) {
     double part = 0;
     runWide([&] {
-      part = laneSum(last - first, [&](std::int64_t n) { return inside[first + n] ? 0 : T[first + n] - ambient; });
+      constexpr std::int64_t atOnce = 1 << 10;  // of which most are as the air around
+      for (std::int64_t begin = first; begin < last; begin += atOnce) {
+        const std::int64_t count = std::min(atOnce, last - begin);
+        if (anyOther(T + begin, count, ambient))
+          part += laneSum(count, [&](std::int64_t n) { return inside[begin + n] ? 0 : T[begin + n] - ambient; });
+      }
     });
     return part;
   });
