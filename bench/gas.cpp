@@ -55,10 +55,14 @@ FluidState burningIn(const FluidSettings& settings) {
   return gas;
 }
 
-/// The bytes of a step once: its seven fields copied, its three sources read.
+/// Bytes of a step once: fields copied, and others read.
 class StepBytes {
  public:
-  explicit StepBytes(int cells) : count_(std::int64_t{1} * cells * cells * cells) {}
+  StepBytes(int cells, int copied, int read)
+      : count_(std::int64_t{1} * cells * cells * cells),
+        fields_(copied, Field(count_, 1)),
+        moved_(fields_),
+        sources_(read, Field(count_, 1)) {}
   void move() {
     const std::int64_t grain = count_ / 64;
     for (std::size_t n = 0; n < fields_.size(); ++n)
@@ -77,14 +81,20 @@ class StepBytes {
  private:
   using Field = AlignedVector<float>;
   std::int64_t count_;
-  std::vector<Field> fields_ = std::vector<Field>(7, Field(count_, 1)), moved_ = fields_;
-  std::vector<Field> sources_ = std::vector<Field>(3, Field(count_, 1));
+  std::vector<Field> fields_, moved_, sources_;
   double sum_ = 0;
 };
 
+/// The least that any step moves: its seven fields change, its three sources are read.
+StepBytes leastBytes(int cells) { return {cells, 7, 3}; }
+/// What the sweeps of a donor-cell step read and write, each field once a sweep (docs/gas.md): scalars and sources
+/// looked at (5 read); velocity and temperature (4), the new velocity (3 written); velocity and source (4), the
+/// right-hand side (1 written) and two sweeps of it in place (2 read, 2 written); solution, velocity and source (5),
+/// velocity and pressure (4 written).
+StepBytes bytesOfSweeps(int cells) { return {cells, 10, 10}; }
+
 /// Median of seven, of the same run as the row it stands beside.
-double millisecondsOfBytes(int cells) {
-  StepBytes bytes(cells);
+double millisecondsOf(StepBytes bytes) {
   bytes.move();
   std::array<double, 7> times;
   for (double& time : times) {
@@ -111,7 +121,8 @@ void heatEverywhere(FluidState& gas) {
   }
 }
 
-/// `bytes` is what moving its bytes once takes [ms], `times` how many times that the step takes.
+/// `bytes` is what moving the least of its bytes takes [ms], `times` how many times that the step takes, `timesSweeps`
+/// of what its sweeps move.
 void stepGas(benchmark::State& state, int cells, const StepInput& input) {
   FluidSettings settings = boxOf(cells);
   settings.buoyancy = 0.01;
@@ -133,13 +144,14 @@ void stepGas(benchmark::State& state, int cells, const StepInput& input) {
   for (auto _ : state) step();
   const double all = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   count(state, gas, report.pressure.iterations);
-  const double bytes = millisecondsOfBytes(cells);
+  const double each = all / static_cast<double>(state.iterations()), bytes = millisecondsOf(leastBytes(cells));
   state.counters["bytes"] = bytes;
-  state.counters["times"] = all / static_cast<double>(state.iterations()) / bytes;
+  state.counters["times"] = each / bytes;
+  state.counters["timesSweeps"] = each / millisecondsOf(bytesOfSweeps(cells));
 }
 
-void moveStep(benchmark::State& state, int cells) {
-  StepBytes bytes(cells);
+void moveStep(benchmark::State& state, StepBytes (*bytesOf)(int), int cells) {
+  StepBytes bytes = bytesOf(cells);
   for (auto _ : state) bytes.move();
   state.counters["threads"] = threadCount();
 }
@@ -171,7 +183,8 @@ const bool registered = [] {
     add("Step/DonorCellHot" + size + "Brisance", stepGas, cells, StepInput{DonorCell{}, 0, true});
     add("Step/DonorCellWhirls" + size + "Brisance", stepGas, cells, StepInput{DonorCell{}, 0.5});
     add("Step/MacCormack" + size + "Brisance", stepGas, cells, StepInput{MacCormack{}});
-    add("Step/Bytes" + size + "Memory", moveStep, cells);
+    add("Step/Bytes" + size + "Memory", moveStep, leastBytes, cells);
+    add("Step/Sweeps" + size + "Memory", moveStep, bytesOfSweeps, cells);
   }
   add("Copy/Array/512M/Memory", copyArray);
   return true;
