@@ -1,6 +1,7 @@
 #include "particles/deposit.h"
 
 #include <cmath>
+#include <cstring>
 
 #include "base/parallel.h"
 #include "base/vector_path.h"
@@ -44,7 +45,7 @@ SymmetricFilter depositFilter(double radiusInCells) {
 }
 
 bool hasSolids(const Grid3<std::uint8_t>& solid) {
-  return std::find(solid.values.begin(), solid.values.end(), 1) != solid.values.end();
+  return std::memchr(solid.values.data(), 1, solid.values.size()) != nullptr;  // many bytes at once, std::find one
 }
 
 /// One over the share of each cell's kernel that falls on gas, 0 where none does.
