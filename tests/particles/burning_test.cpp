@@ -211,6 +211,22 @@ TEST(ParticleStep, DoesNothingWithoutParticles) {
   EXPECT_EQ(none.size(), 0u);
 }
 
+TEST(Walls, ThatLieElsewhereStopNoParticleFromOutsideTheBox) {
+  Box box;
+  for (float& u : box.velocity.u.values) u = 20;
+  for (float& w : box.velocity.w.values) w = -5;
+  for (int j = 0; j < 16; ++j)  // where a row beyond the last of a layer would lie in memory, and beyond the last layer
+    for (int i = 0; i < 17; ++i) box.open.u(i, 0, 8) = box.open.u(i, j, 15) = 0;
+  ParticleSet p = oneFuel({.1, 1.01, 7.5 / 16}, BurnSettings{}.mass, false);
+  append(p, {{.1, .3, 1.01}, {20, 0, -5}, BurnSettings{}.mass, 300, ParticleKind::fuel, false});
+  for (float& v : box.velocity.v.values) v = -2;
+  p.velocity[0] = {20, -2, -5};
+  stepParticles(p, box.around(), {}, 0.02);
+  ASSERT_EQ(p.size(), 2u);
+  EXPECT_NEAR(p.position[0].x, .5, 1e-6);
+  EXPECT_LT(p.position[1].x, .126);  // the wall of the nearest layer holds
+}
+
 TEST(Soot, IsTheSameOnAnyNumberOfThreads) {
   const Box box;
   BurnSettings s;
