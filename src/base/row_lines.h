@@ -10,9 +10,16 @@ namespace brisance {
 constexpr int lineFloats = 16;  // of 64 bytes
 
 /// `?:` by bits: of that the compiler may make a branch around what it takes to find `yes`, and no vectors.
+template <class Number, class Bits>
+inline Number selectBits(bool condition, Number yes, Number no) {
+  const Bits mask = condition ? ~Bits{0} : 0;
+  return std::bit_cast<Number>((std::bit_cast<Bits>(yes) & mask) | (std::bit_cast<Bits>(no) & ~mask));
+}
 inline float select(bool condition, float yes, float no) {
-  const std::uint32_t mask = condition ? ~std::uint32_t{0} : 0;
-  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(yes) & mask) | (std::bit_cast<std::uint32_t>(no) & ~mask));
+  return selectBits<float, std::uint32_t>(condition, yes, no);
+}
+inline double select(bool condition, double yes, double no) {
+  return selectBits<double, std::uint64_t>(condition, yes, no);
 }
 
 /// Asks for a line of each.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/row_lines.h"
 #include "base/vector_path.h"
 #include "grid/interpolate_many.h"
 #include "particles/way_through_cells.h"
@@ -109,29 +110,45 @@ class BlockStep {
   }
 
   void load(std::int64_t first, int count) {
+    for (int axis = 0; axis < 3; ++axis) {
+      takeAxis(&p_.position[first].x + axis, count, block_.place.along[axis]);
+      takeAxis(&p_.velocity[first].x + axis, count, block_.velocity[axis]);
+    }
+    findResistance(p_.mass.data() + first, p_.kind.data() + first, count);
+  }
+  static void takeAxis(const double* places, int count, double* along) {
+#pragma GCC ivdep
+    for (int n = 0; n < count; ++n) along[n] = places[3 * n];
+  }
+  void findResistance(const double* mass, const ParticleKind* kind, int count) {
     constexpr double massless = -1;
-    const Vec3d *place = p_.position.data() + first, *velocity = p_.velocity.data() + first;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int n = 0; n < count; ++n) {
-        block_.place.along[axis][n] = place[n][axis];
-        block_.velocity[axis][n] = velocity[n][axis];
-      }
-    const double* mass = p_.mass.data() + first;
-    const ParticleKind* kind = p_.kind.data() + first;
+    const double leastFuel = settings_.fuelMassThreshold, leastSoot = settings_.sootMassThreshold, drag = drag_;
+    double* resistance = block_.resistance;
+#pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      const double least = kind[n] == ParticleKind::fuel ? settings_.fuelMassThreshold : settings_.sootMassThreshold;
-      block_.resistance[n] = mass[n] < least ? massless : drag_ / mass[n];
+      const double least = kind[n] == ParticleKind::fuel ? leastFuel : leastSoot;
+      resistance[n] = select(mass[n] < least, massless, drag / mass[n]);
     }
   }
 
   void store(std::int64_t first, int count) {
-    Vec3d *place = p_.position.data() + first, *velocity = p_.velocity.data() + first;
-    double* temperature = p_.temperature.data() + first;
+    putTriples(block_.goal.along, count, &p_.position[first].x);
+    putTriples(block_.velocity, count, &p_.velocity[first].x);
+    heat(p_.temperature.data() + first, count);
+  }
+  static void putTriples(const double (&along)[3][blockParticles], int count, double* places) {
+#pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      place[n] = {block_.goal.along[0][n], block_.goal.along[1][n], block_.goal.along[2][n]};
-      velocity[n] = {block_.velocity[0][n], block_.velocity[1][n], block_.velocity[2][n]};
-      temperature[n] = block_.around[n] + (temperature[n] - block_.around[n]) * kept_;
+      places[3 * n] = along[0][n];
+      places[3 * n + 1] = along[1][n];
+      places[3 * n + 2] = along[2][n];
     }
+  }
+  void heat(double* temperature, int count) const {
+    const double kept = kept_;
+    const float* around = block_.around;
+#pragma GCC ivdep
+    for (int n = 0; n < count; ++n) temperature[n] = around[n] + (temperature[n] - around[n]) * kept;
   }
 
   ParticleSet& p_;
