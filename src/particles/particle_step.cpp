@@ -39,8 +39,9 @@ constexpr int blockParticles = PlaceBlock::most;  // whose numbers stay in the n
 /// Some particles, one array per number, so that loops over them become loops over vectors.
 struct Block {
   PlaceBlock place, goal;
-  CellBlock from, to;                     // the cells of place and goal
-  std::int32_t crossing[blockParticles];  // those for which they differ
+  CellBlock from, to;                    // the cells of place and goal
+  std::int32_t meets[blockParticles];    // whether something may stand between those
+  std::int32_t meeting[blockParticles];  // the particles for which it may
   WindBlock wind;
   double velocity[3][blockParticles];
   double resistance[blockParticles];  // k [1/m]; negative for what has no mass and moves with the gas
@@ -92,10 +93,11 @@ class BlockStep {
       dragBlock(block_, count, dt_);
       way_.cellsOf(block_.place, count, block_.from);
       way_.cellsOf(block_.goal, count, block_.to);
+      way_.mayMeet(block_.from, block_.to, count, block_.meets);
     });
-    const int crossing = WayThroughCells::listCrossing(block_.from, block_.to, count, block_.crossing);
-    for (int m = 0; m < crossing; ++m) {
-      const int n = block_.crossing[m];
+    const int meeting = WayThroughCells::list(block_.meets, count, block_.meeting);
+    for (int m = 0; m < meeting; ++m) {
+      const int n = block_.meeting[m];
       gone[n] = !way_.move(block_.from, block_.to, n, block_.place, block_.goal);
     }
     interpolateMany(gas_.temperature, block_.goal, count, block_.around);
@@ -135,6 +137,7 @@ class BlockStep {
     putTriples(block_.goal.along, count, &p_.position[first].x);
     putTriples(block_.velocity, count, &p_.velocity[first].x);
     heat(p_.temperature.data() + first, count);
+    ignite(p_.kind.data() + first, p_.temperature.data() + first, count, p_.ignited.data() + first);
   }
   static void putTriples(const double (&along)[3][blockParticles], int count, double* places) {
 #pragma GCC ivdep
@@ -149,6 +152,12 @@ class BlockStep {
     const float* around = block_.around;
 #pragma GCC ivdep
     for (int n = 0; n < count; ++n) temperature[n] = around[n] + (temperature[n] - around[n]) * kept;
+  }
+  void ignite(const ParticleKind* kind, const double* temperature, int count, std::uint8_t* ignited) const {
+    const double hot = settings_.ignitionTemperature;
+#pragma GCC ivdep
+    for (int n = 0; n < count; ++n)
+      ignited[n] |= std::uint8_t{kind[n] == ParticleKind::fuel} & std::uint8_t{temperature[n] >= hot};
   }
 
   ParticleSet& p_;

@@ -46,14 +46,20 @@ TEST(Burning, AParticleBurnsWhatItHasLeftAndNoMore) {
   EXPECT_EQ(p.size(), 0u);
 }
 
-TEST(Burning, IgnitionComesWithTemperature) {
+TEST(Burning, IgnitionComesWithTheTemperatureOfTheGasAround) {
+  Box box;
   BurnSettings s;
+  s.thermalMass = 0;  // takes the gas' temperature at once
   ParticleSet p = oneFuel({.5, .5, .5}, s.mass, false);
-  ignite(p, s);
-  EXPECT_FALSE(p.ignited[0]);
-  p.temperature[0] = s.ignitionTemperature;
-  ignite(p, s);
-  EXPECT_TRUE(p.ignited[0]);
+  append(p, {{.5, .5, .5}, {}, s.mass, 300, ParticleKind::soot, false});
+  const auto ignitedIn = [&](double temperature) {
+    for (float& value : box.temperature.values) value = static_cast<float>(temperature);
+    stepParticles(p, box.around(), s, 0.01);
+    return p.ignited;
+  };
+  EXPECT_EQ(ignitedIn(s.ignitionTemperature - 1), (std::vector<std::uint8_t>{0, 0}));
+  EXPECT_EQ(ignitedIn(s.ignitionTemperature), (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_EQ(ignitedIn(300), (std::vector<std::uint8_t>{1, 0}));  // what burns goes on
 }
 
 TEST(Burning, SootMassIsKept) {
@@ -202,6 +208,32 @@ TEST(ParticleStep, IsTheSameBitsOnAnyNumberOfThreadsAndVectors) {
       EXPECT_EQ(whirl.after(0.02), expected);
     }
   forceVectorPath(before);
+}
+
+TEST(ParticleStep, OfAnEmptyBoxIsTheSameWithoutALookAtItsFaces) {
+  Whirl whirl;
+  for (Grid3<float>* component : {&whirl.box.open.u, &whirl.box.open.v, &whirl.box.open.w})
+    std::fill(component->values.begin(), component->values.end(), 1.0f);
+  for (int i = 0; i < 16; ++i)
+    for (int k = 0; k < 16; ++k) whirl.box.open.v(i, 0, k) = 0;  // the floor
+  for (const Vec3d& place : {Vec3d(-.01, .5, .5), Vec3d(.5, 1.2, .5), Vec3d(2, .5, -2), Vec3d(.5, NAN, .5)})
+    append(whirl.particles, {place, {1, -3, 0}, 1e-4, 300, ParticleKind::fuel, false});
+  for (const bool periodic : {false, true})
+    for (const double dt : {0.0, 0.02, 0.3}) {  // within a cell, to neighbours, beyond
+      GasAround around = whirl.box.around();
+      around.periodic = {periodic, false, periodic};
+      ParticleSet looked = whirl.particles, trusted = whirl.particles;
+      stepParticles(looked, around, whirl.settings, dt);
+      around.empty = true;
+      stepParticles(trusted, around, whirl.settings, dt);
+      ASSERT_EQ(trusted.id, looked.id);
+      for (std::size_t n = 0; n < looked.size(); ++n) {
+        if (std::isnan(looked.position[n].y)) continue;
+        ASSERT_EQ(trusted.position[n], looked.position[n]);
+        ASSERT_EQ(trusted.velocity[n], looked.velocity[n]);
+        ASSERT_EQ(trusted.temperature[n], looked.temperature[n]);
+      }
+    }
 }
 
 TEST(ParticleStep, DoesNothingWithoutParticles) {
