@@ -29,6 +29,13 @@ inline void fetchToRead(std::int64_t i, const Samples*... rows) {
   (__builtin_prefetch(rows + i), ...);
 }
 
+/// Asks for all lines of some numbers.
+template <class Number>
+inline void fetchAll(const Number* numbers, std::int64_t count) {
+  const std::int64_t bytes = count * static_cast<std::int64_t>(sizeof(Number)), line = lineFloats * sizeof(float);
+  for (std::int64_t byte = 0; byte < bytes; byte += line) fetchToRead(byte, reinterpret_cast<const char*>(numbers));
+}
+
 /// Likewise, of lines that will be written.
 template <class... Samples>
 inline void fetchToWrite(std::int64_t i, const Samples*... rows) {

@@ -88,7 +88,12 @@ class BlockStep {
 
   void run(std::int64_t first, int count, std::uint8_t* gone) {
     runWide([&] { load(first, count); });
+    const std::int64_t next = first + count;
+    fetch(p_.temperature, first);
+    fetch(p_.position, next);
     interpolateMany(gas_.velocity, block_.place, count, block_.wind);
+    fetch(p_.velocity, next);
+    fetch(p_.mass, next);
     runWide([&] {
       dragBlock(block_, count, dt_);
       way_.cellsOf(block_.place, count, block_.from);
@@ -105,6 +110,12 @@ class BlockStep {
   }
 
  private:
+  /// Asks for a field of the particles from `first` on, which are worked on next.
+  template <class T>
+  static void fetch(const std::vector<T>& field, std::int64_t first) {
+    const std::int64_t left = static_cast<std::int64_t>(field.size()) - first;
+    fetchAll(field.data() + first, std::min<std::int64_t>(left, blockParticles));
+  }
   /// Share of the difference of temperatures that is left after dt.
   static double keptDifference(const BurnSettings& s, double dt) {
     if (s.thermalMass < s.thermalMassThreshold) return 0;
