@@ -26,6 +26,7 @@ struct Gas {
   Grid3<float> temperature{{cells, cells, cells}, Vec3d(.5, .5, .5) * cellSize, cellSize, 1500.f};
   Grid3<std::uint8_t> solid{{cells, cells, cells}, Vec3d(.5, .5, .5) * cellSize, cellSize, 0};
   Grid3<float> rate = temperature;
+  bool bodies = false;  ///< whether each face is looked at
 
   Gas() {
     for (int axis = 0; axis < 3; ++axis) {
@@ -39,7 +40,7 @@ struct Gas {
           }
     }
   }
-  GasAround around() const { return {velocity, temperature, open}; }
+  GasAround around() const { return {velocity, temperature, open, {}, !bodies}; }
 };
 
 constexpr double dt = 0.0025;  // [s]
@@ -80,7 +81,7 @@ double massOf(const Grid3<float>& rate) {
   return sum * cellSize * cellSize * cellSize * dt;
 }
 
-/// burn, deposit, (soot,) remove what is spent, carry and heat, ignite: `sort` first, as once in a frame.
+/// burn, deposit, (soot,) remove what is spent, carry, heat and ignite: `sort` first, as once in a frame.
 void burnParticles(benchmark::State& state, bool sort, bool makesSoot) {
   const BurnSettings settings = fineFuel(makesSoot);
   Gas gas;
@@ -97,7 +98,6 @@ void burnParticles(benchmark::State& state, bool sort, bool makesSoot) {
     if (makesSoot) createSoot(particles, settings, gas.solid, 1);
     removeSpent(particles, settings, dt);
     stepParticles(particles, gas.around(), settings, dt);
-    ignite(particles, settings);
   };
   subStep();  // fresh memory comes once in a film
   for (auto _ : state) {
@@ -128,9 +128,10 @@ void depositParticles(benchmark::State& state) {
   state.counters["threads"] = threadCount();
 }
 
-void carryParticles(benchmark::State& state) {
+void carryParticles(benchmark::State& state, bool bodies) {
   const BurnSettings settings = fineFuel(false);
   Gas gas;
+  gas.bodies = bodies;
   OrderScratch order;
   ParticleSet start = burningBall(settings);
   sortByRow(start, gas.rate, order);
@@ -155,7 +156,8 @@ const bool registered = [] {
   add("Particles/BurningAndSorting/1M/Brisance", burnParticles, true, false);
   add("Particles/BurningWithSoot/1M/Brisance", burnParticles, false, true);
   add("Particles/Deposit/1M/Brisance", depositParticles);
-  add("Particles/Carry/1M/Brisance", carryParticles);
+  add("Particles/Carry/1M/Brisance", carryParticles, false);
+  add("Particles/CarryAmongBodies/1M/Brisance", carryParticles, true);
   return true;
 }();
 

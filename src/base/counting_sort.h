@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,10 +38,11 @@ struct SortBlocks {
   std::int64_t items, number;
   explicit SortBlocks(std::int64_t items_) : items(items_), number((items + size - 1) / size) {}
 
+  std::int64_t countOf(std::int64_t block) const { return std::min(items - block * size, size); }
   /// Calls visit(first, end) for runs of at most sortRun items of a block, in their order.
   template <class Visit>
   void forRuns(std::int64_t block, const Visit& visit) const {
-    const std::int64_t end = std::min(items, (block + 1) * size);
+    const std::int64_t end = block * size + countOf(block);
     for (std::int64_t n = block * size; n < end; n += sortRun) visit(n, std::min(end, n + sortRun));
   }
 };
@@ -66,17 +68,23 @@ void fetchToWrite(const T* place, std::size_t lines) {
   __builtin_prefetch(reinterpret_cast<const char*>(place) + lines * line, toWrite);
 }
 
-/// Groups the items of a block, within a group in their order.
-template <class Item, class BinsOf, class MakeItems>
-void groupBlock(const SortBlocks& blocks, std::int64_t block, const BinGroups& groups, const BinsOf& binsOf,
-                const MakeItems& makeItems, Binned<Item>& result) {
-  const std::int64_t begin = block * SortBlocks::size;
+/// The items of a block and their bins, while it is sorted.
+template <class Item>
+struct MadeBlock {
+  std::unique_ptr<Item[]> items = std::make_unique_for_overwrite<Item[]>(SortBlocks::size);
   std::array<std::int32_t, SortBlocks::size> binOf;
+};
+
+/// Groups the items of a block, within a group in their order.
+template <class Item, class MakeItems>
+void groupBlock(const SortBlocks& blocks, std::int64_t block, const BinGroups& groups, const MakeItems& makeItems,
+                MadeBlock<Item>& made, Binned<Item>& result) {
+  const std::int64_t begin = block * SortBlocks::size;
   std::array<std::uint32_t, BinGroups::most> next{};
   blocks.forRuns(block, [&](std::int64_t first, std::int64_t end) {
-    binsOf(first, end, &binOf[first - begin]);
+    makeItems(first, end, &made.binOf[first - begin], &made.items[first - begin]);
     for (std::int64_t n = first - begin; n < end - begin; ++n)
-      if (binOf[n] >= 0) ++next[binOf[n] >> groups.shift];
+      if (made.binOf[n] >= 0) ++next[made.binOf[n] >> groups.shift];
   });
   constexpr std::size_t linesAhead = 2;
   const auto fetchPlaces = [&](std::uint32_t place, std::size_t lines) {
@@ -92,18 +100,14 @@ void groupBlock(const SortBlocks& blocks, std::int64_t block, const BinGroups& g
     for (std::size_t lines = 0; lines < linesAhead; ++lines) fetchPlaces(start[group], lines);
   }
   start[groups.number] = at;
-  blocks.forRuns(block, [&](std::int64_t first, std::int64_t end) {
-    std::array<Item, sortRun> items;
-    makeItems(first, end, items.data());
-    for (std::int64_t n = first; n < end; ++n) {
-      const std::int32_t bin = binOf[n - begin];
-      if (bin < 0) continue;
-      const std::uint32_t to = next[bin >> groups.shift]++;
-      fetchPlaces(to, linesAhead);
-      result.grouped[to] = items[n - first];
-      result.groupedBinOf[to] = bin;
-    }
-  });
+  for (std::int64_t n = 0; n < blocks.countOf(block); ++n) {
+    const std::int32_t bin = made.binOf[n];
+    if (bin < 0) continue;
+    const std::uint32_t to = next[bin >> groups.shift]++;
+    fetchPlaces(to, linesAhead);
+    result.grouped[to] = made.items[n];
+    result.groupedBinOf[to] = bin;
+  }
 }
 
 /// Where the groups lie that the blocks' pieces make.
@@ -153,22 +157,21 @@ void sortGroup(Binned<Item>& sorted, std::int64_t blocks, std::int64_t group, st
 }
 }  // namespace detail
 
-/// Sorts items n = 0 .. count - 1, fewer than 2^32: binsOf(first, end, bins) tells the bins of a run of them, each
-/// below `bins` or -1 to leave it out; makeItems(first, end, items) makes them, with whatever for those left out. Both
-/// are called from several threads, once for each run. Blocks of items are sorted into groups of bins, and each group,
-/// gathered from all blocks, into its bins: items spread over all bins at once would each come to a line of memory of
-/// its own.
-template <class Item, class BinsOf, class MakeItems>
-void sortIntoBins(std::int64_t count, std::int64_t bins, const BinsOf& binsOf, const MakeItems& makeItems,
-                  Binned<Item>& result) {
+/// Sorts items n = 0 .. count - 1, fewer than 2^32: makeItems(first, end, bins, items) makes a run of them and tells
+/// their bins, each below `bins` or -1 to leave it out, whatever the item. It is called from several threads, once for
+/// each run. Blocks of items are sorted into groups of bins, and each group, gathered from all blocks, into its bins:
+/// items spread over all bins at once would each come to a line of memory of its own.
+template <class Item, class MakeItems>
+void sortIntoBins(std::int64_t count, std::int64_t bins, const MakeItems& makeItems, Binned<Item>& result) {
   const detail::SortBlocks blocks(count);
   const detail::BinGroups groups(bins);
   result.pieceStart.resize(static_cast<std::size_t>(blocks.number * (groups.number + 1)));
   result.grouped.resize(static_cast<std::size_t>(count));
   result.groupedBinOf.resize(static_cast<std::size_t>(count));
   parallelFor(0, blocks.number, 1, [&](std::int64_t first, std::int64_t last) {
+    detail::MadeBlock<Item> made;
     for (std::int64_t block = first; block < last; ++block)
-      detail::groupBlock(blocks, block, groups, binsOf, makeItems, result);
+      detail::groupBlock(blocks, block, groups, makeItems, made, result);
   });
   detail::placeGroups(blocks.number, groups.number, result);
   const std::uint32_t kept = result.groupStart.back();

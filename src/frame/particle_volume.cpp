@@ -37,56 +37,51 @@ struct DrawnPoints {
     };
   }
   /// Rows of cells, -1 for what is not drawn; the cells that the others reach along x.
-  CellSpan rowsOf(std::int64_t first, std::int64_t end, std::int32_t* rows) const {
-    const int count = static_cast<int>(end - first);
-    float mass[sortRun];
-    look.weigh(first, count, mass);
-    CellSpan reached;
-    runWide([&, count, rows] {
-      const ShareRun share = shares(first, count);
-      std::int32_t outside[sortRun];
-      for (int n = 0; n < count; ++n) outside[n] = !(mass[n] > 0);
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto place = placeAlong(axis, first);
-        const double last = settings.size[axis] - .5;
-#pragma GCC ivdep
-        for (int n = 0; n < count; ++n) {
-          const double at = place(n);
-          outside[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= last)};
-        }
-      }
-      const int rowsPerLayer = settings.size.y, cellsPerRow = settings.size.x;
-      int lowest = cellsPerRow, highest = -1;
-#pragma GCC ivdep
-      for (int n = 0; n < count; ++n) {
-        const std::int32_t x = share.lower[0][n], row = share.rowOf(n, rowsPerLayer);
-        rows[n] = outside[n] ? -1 : row;
-        lowest = std::min(lowest, outside[n] ? cellsPerRow : x);
-        highest = std::max(highest, outside[n] ? -1 : x);
-      }
-      reached = {lowest, highest + 1};
-    });
-    return reached;
-  }
-  void make(std::int64_t first, std::int64_t end, Point* points) const {
+  CellSpan make(std::int64_t first, std::int64_t end, std::int32_t* rows, Point* points) const {
     const int count = static_cast<int>(end - first);
     float mass[sortRun];
     Vec3f colour[sortRun];
     look.weigh(first, count, mass);
     look.colour(particles.temperature.data() + first, count, colour);
     ShareRun share;
-    runWide([&] { share = shares(first, count); });
+    CellSpan reached;
+    runWide([&] {
+      setShares(first, count, share);
+      reached = findRows(first, count, mass, share, rows);
+    });
     for (int n = 0; n < count; ++n) {
       const Vec3f amount = colour[n] * mass[n];
       points[n] = {share[n], {mass[n], amount.x, amount.y, amount.z}};
     }
+    return reached;
   }
 
  private:
-  ShareRun shares(std::int64_t first, int count) const {
-    ShareRun share;
+  void setShares(std::int64_t first, int count, ShareRun& share) const {
     for (int axis = 0; axis < 3; ++axis) share.set(axis, count, settings.size[axis], placeAlong(axis, first));
-    return share;
+  }
+  CellSpan findRows(std::int64_t first, int count, const float* mass, const ShareRun& share, std::int32_t* rows) const {
+    std::int32_t outside[sortRun];
+    for (int n = 0; n < count; ++n) outside[n] = !(mass[n] > 0);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto place = placeAlong(axis, first);
+      const double last = settings.size[axis] - .5;
+#pragma GCC ivdep
+      for (int n = 0; n < count; ++n) {
+        const double at = place(n);
+        outside[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= last)};
+      }
+    }
+    const int rowsPerLayer = settings.size.y, cellsPerRow = settings.size.x;
+    int lowest = cellsPerRow, highest = -1;
+#pragma GCC ivdep
+    for (int n = 0; n < count; ++n) {
+      const std::int32_t x = share.lower[0][n], row = share.rowOf(n, rowsPerLayer);
+      rows[n] = outside[n] ? -1 : row;
+      lowest = std::min(lowest, outside[n] ? cellsPerRow : x);
+      highest = std::max(highest, outside[n] ? -1 : x);
+    }
+    return {lowest, highest + 1};
   }
 };
 
@@ -96,10 +91,10 @@ void sortDrawn(const DrawnPoints& drawn, SplatScratch& scratch) {
   scratch.reachAlongX.assign(static_cast<std::size_t>((count + sortRun - 1) / sortRun), {});
   sortIntoBins(
       count, rows,
-      [&](std::int64_t first, std::int64_t end, std::int32_t* bins) {
-        scratch.reachAlongX[first / sortRun] = drawn.rowsOf(first, end, bins);
+      [&](std::int64_t first, std::int64_t end, std::int32_t* bins, Point* made) {
+        scratch.reachAlongX[first / sortRun] = drawn.make(first, end, bins, made);
       },
-      [&](std::int64_t first, std::int64_t end, Point* made) { drawn.make(first, end, made); }, scratch.points);
+      scratch.points);
 }
 
 /// Cells of the asked volume, by their numbers.

@@ -274,9 +274,13 @@ class StripBlur {
   std::vector<LayerRing> layers_;  ///< per row of the strip
 };
 
-/// Wide enough that few rows are made twice, and enough strips for the threads.
+/// As wide as the second cache has room for, since rows near another strip are made twice, and enough strips for the
+/// threads.
 int rowsPerStrip(const BlurTask& task) {
-  const int wide = std::max(12, 2 * task.filter.radius()), share = task.size.y / (2 * threadCount());
+  constexpr int room = 1 << 17;                                  // numbers
+  const int layers = 2 * task.filter.radius() + rowsAtOnce + 2;  // kept of each row
+  const int wide = std::max({12, 2 * task.filter.radius(), room / (layers * rowWidth(task))});
+  const int share = task.size.y / (2 * threadCount());
   return std::clamp(share, std::min(8, task.size.y), wide);
 }
 

@@ -50,14 +50,6 @@ void emitFuel(ParticleSet& particles, const ParticleSettings& settings, double t
   }
 }
 
-void ignite(ParticleSet& particles, const BurnSettings& settings) {
-  forEachParticle(particles.size(),
-                  [kind = particles.kind.data(), temperature = particles.temperature.data(),
-                   ignited = particles.ignited.data(), hot = settings.ignitionTemperature](std::int64_t n) {
-                    ignited[n] |= std::uint8_t{kind[n] == ParticleKind::fuel} & std::uint8_t{temperature[n] >= hot};
-                  });
-}
-
 void burn(ParticleSet& particles, const BurnSettings& settings, double dt, std::vector<double>& burnt) {
   burnt.resize(particles.size());
   forEachParticle(particles.size(),

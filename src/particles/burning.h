@@ -12,9 +12,6 @@ namespace brisance {
 void emitFuel(ParticleSet& particles, const ParticleSettings& settings, double time, double ambient, std::uint64_t seed,
               std::vector<std::uint64_t>& emitted);
 
-/// Sets fuel alight that is at its ignition temperature.
-void ignite(ParticleSet& particles, const BurnSettings& settings);
-
 /// Burns for dt [s]; `burnt` becomes what each particle burnt: the burning rate times dt, or what it had left. [kg]
 void burn(ParticleSet& particles, const BurnSettings& settings, double dt, std::vector<double>& burnt);
 

@@ -27,10 +27,8 @@ void sortByRow(ParticleSet& particles, const Grid3<float>& cells, OrderScratch& 
   const std::int64_t count = static_cast<std::int64_t>(particles.size());
   sortIntoBins(
       count, static_cast<std::int64_t>(cells.size.y) * cells.size.z,
-      [&](std::int64_t first, std::int64_t end, std::int32_t* rows) {
+      [&](std::int64_t first, std::int64_t end, std::int32_t* rows, std::uint32_t* items) {
         rowsOf(particles.position.data() + first, static_cast<int>(end - first), cells, rows);
-      },
-      [](std::int64_t first, std::int64_t end, std::uint32_t* items) {
         std::iota(items, items + (end - first), static_cast<std::uint32_t>(first));
       },
       scratch.order);

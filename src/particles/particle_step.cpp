@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/row_lines.h"
 #include "base/vector_path.h"
 #include "grid/interpolate_many.h"
 #include "particles/way_through_cells.h"
@@ -38,8 +39,9 @@ constexpr int blockParticles = PlaceBlock::most;  // whose numbers stay in the n
 /// Some particles, one array per number, so that loops over them become loops over vectors.
 struct Block {
   PlaceBlock place, goal;
-  CellBlock from, to;                     // the cells of place and goal
-  std::int32_t crossing[blockParticles];  // those for which they differ
+  CellBlock from, to;                    // the cells of place and goal
+  std::int32_t meets[blockParticles];    // whether something may stand between those
+  std::int32_t meeting[blockParticles];  // the particles for which it may
   WindBlock wind;
   double velocity[3][blockParticles];
   double resistance[blockParticles];  // k [1/m]; negative for what has no mass and moves with the gas
@@ -86,15 +88,21 @@ class BlockStep {
 
   void run(std::int64_t first, int count, std::uint8_t* gone) {
     runWide([&] { load(first, count); });
+    const std::int64_t next = first + count;
+    fetch(p_.temperature, first);
+    fetch(p_.position, next);
     interpolateMany(gas_.velocity, block_.place, count, block_.wind);
+    fetch(p_.velocity, next);
+    fetch(p_.mass, next);
     runWide([&] {
       dragBlock(block_, count, dt_);
       way_.cellsOf(block_.place, count, block_.from);
       way_.cellsOf(block_.goal, count, block_.to);
+      way_.mayMeet(block_.from, block_.to, count, block_.meets);
     });
-    const int crossing = WayThroughCells::listCrossing(block_.from, block_.to, count, block_.crossing);
-    for (int m = 0; m < crossing; ++m) {
-      const int n = block_.crossing[m];
+    const int meeting = WayThroughCells::list(block_.meets, count, block_.meeting);
+    for (int m = 0; m < meeting; ++m) {
+      const int n = block_.meeting[m];
       gone[n] = !way_.move(block_.from, block_.to, n, block_.place, block_.goal);
     }
     interpolateMany(gas_.temperature, block_.goal, count, block_.around);
@@ -102,6 +110,12 @@ class BlockStep {
   }
 
  private:
+  /// Asks for a field of the particles from `first` on, which are worked on next.
+  template <class T>
+  static void fetch(const std::vector<T>& field, std::int64_t first) {
+    const std::int64_t left = static_cast<std::int64_t>(field.size()) - first;
+    fetchAll(field.data() + first, std::min<std::int64_t>(left, blockParticles));
+  }
   /// Share of the difference of temperatures that is left after dt.
   static double keptDifference(const BurnSettings& s, double dt) {
     if (s.thermalMass < s.thermalMassThreshold) return 0;
@@ -109,29 +123,52 @@ class BlockStep {
   }
 
   void load(std::int64_t first, int count) {
+    for (int axis = 0; axis < 3; ++axis) {
+      takeAxis(&p_.position[first].x + axis, count, block_.place.along[axis]);
+      takeAxis(&p_.velocity[first].x + axis, count, block_.velocity[axis]);
+    }
+    findResistance(p_.mass.data() + first, p_.kind.data() + first, count);
+  }
+  static void takeAxis(const double* places, int count, double* along) {
+#pragma GCC ivdep
+    for (int n = 0; n < count; ++n) along[n] = places[3 * n];
+  }
+  void findResistance(const double* mass, const ParticleKind* kind, int count) {
     constexpr double massless = -1;
-    const Vec3d *place = p_.position.data() + first, *velocity = p_.velocity.data() + first;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int n = 0; n < count; ++n) {
-        block_.place.along[axis][n] = place[n][axis];
-        block_.velocity[axis][n] = velocity[n][axis];
-      }
-    const double* mass = p_.mass.data() + first;
-    const ParticleKind* kind = p_.kind.data() + first;
+    const double leastFuel = settings_.fuelMassThreshold, leastSoot = settings_.sootMassThreshold, drag = drag_;
+    double* resistance = block_.resistance;
+#pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      const double least = kind[n] == ParticleKind::fuel ? settings_.fuelMassThreshold : settings_.sootMassThreshold;
-      block_.resistance[n] = mass[n] < least ? massless : drag_ / mass[n];
+      const double least = kind[n] == ParticleKind::fuel ? leastFuel : leastSoot;
+      resistance[n] = select(mass[n] < least, massless, drag / mass[n]);
     }
   }
 
   void store(std::int64_t first, int count) {
-    Vec3d *place = p_.position.data() + first, *velocity = p_.velocity.data() + first;
-    double* temperature = p_.temperature.data() + first;
+    putTriples(block_.goal.along, count, &p_.position[first].x);
+    putTriples(block_.velocity, count, &p_.velocity[first].x);
+    heat(p_.temperature.data() + first, count);
+    ignite(p_.kind.data() + first, p_.temperature.data() + first, count, p_.ignited.data() + first);
+  }
+  static void putTriples(const double (&along)[3][blockParticles], int count, double* places) {
+#pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      place[n] = {block_.goal.along[0][n], block_.goal.along[1][n], block_.goal.along[2][n]};
-      velocity[n] = {block_.velocity[0][n], block_.velocity[1][n], block_.velocity[2][n]};
-      temperature[n] = block_.around[n] + (temperature[n] - block_.around[n]) * kept_;
+      places[3 * n] = along[0][n];
+      places[3 * n + 1] = along[1][n];
+      places[3 * n + 2] = along[2][n];
     }
+  }
+  void heat(double* temperature, int count) const {
+    const double kept = kept_;
+    const float* around = block_.around;
+#pragma GCC ivdep
+    for (int n = 0; n < count; ++n) temperature[n] = around[n] + (temperature[n] - around[n]) * kept;
+  }
+  void ignite(const ParticleKind* kind, const double* temperature, int count, std::uint8_t* ignited) const {
+    const double hot = settings_.ignitionTemperature;
+#pragma GCC ivdep
+    for (int n = 0; n < count; ++n)
+      ignited[n] |= std::uint8_t{kind[n] == ParticleKind::fuel} & std::uint8_t{temperature[n] >= hot};
   }
 
   ParticleSet& p_;

@@ -9,6 +9,7 @@ namespace brisance {
 WayThroughCells::WayThroughCells(const GasAround& gas)
     : openShare_(gas.openShare),
       periodic_(gas.periodic),
+      empty_(gas.empty),
       cells_(openShare_.cells()),
       corner_(openShare_.u.origin - Vec3d(0, .5, .5) * openShare_.u.cellSize),
       cellSize_(openShare_.u.cellSize),
@@ -38,7 +39,8 @@ bool WayThroughCells::search(int n, const PlaceBlock& place, PlaceBlock& goal) c
   for (int axis = 0; axis < 3; ++axis) p[axis] = (place.along[axis][n] - corner_[axis]) * perCell_;
   for (int axis = 0; axis < 3; ++axis) {
     const Grid3<float>& open = openShare_.component(axis);
-    int cell[3] = {static_cast<int>(p[0]), static_cast<int>(p[1]), static_cast<int>(p[2])};
+    int cell[3];  // of a place outside the box the nearest
+    for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::min(std::max(0.0, p[a]), cells_[a] - 1.0));
     double end = (goal.along[axis][n] - corner_[axis]) * perCell_;
     const bool forward = end > p[axis];
     while (forward ? cell[axis] + 1 <= end : cell[axis] > end) {

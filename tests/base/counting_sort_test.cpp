@@ -19,14 +19,13 @@ Binned<Item> sorted(std::int64_t count, std::uint32_t bins, std::uint64_t seed) 
     const auto number = static_cast<std::uint64_t>(n);
     return Item{static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(random.below(bins + 1, number))};
   };
-  const auto binsOf = [&](std::int64_t first, std::int64_t end, std::int32_t* binOf) {
-    for (std::int64_t n = first; n < end; ++n)
+  const auto make = [&](std::int64_t first, std::int64_t end, std::int32_t* binOf, Item* items) {
+    for (std::int64_t n = first; n < end; ++n) {
+      items[n - first] = item(n);
       binOf[n - first] = item(n).bin < bins ? static_cast<std::int32_t>(item(n).bin) : -1;
+    }
   };
-  const auto make = [&](std::int64_t first, std::int64_t end, Item* items) {
-    for (std::int64_t n = first; n < end; ++n) items[n - first] = item(n);
-  };
-  sortIntoBins(count, bins, binsOf, make, result);
+  sortIntoBins(count, bins, make, result);
   return result;
 }
 

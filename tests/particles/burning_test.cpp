@@ -46,14 +46,20 @@ TEST(Burning, AParticleBurnsWhatItHasLeftAndNoMore) {
   EXPECT_EQ(p.size(), 0u);
 }
 
-TEST(Burning, IgnitionComesWithTemperature) {
+TEST(Burning, IgnitionComesWithTheTemperatureOfTheGasAround) {
+  Box box;
   BurnSettings s;
+  s.thermalMass = 0;  // takes the gas' temperature at once
   ParticleSet p = oneFuel({.5, .5, .5}, s.mass, false);
-  ignite(p, s);
-  EXPECT_FALSE(p.ignited[0]);
-  p.temperature[0] = s.ignitionTemperature;
-  ignite(p, s);
-  EXPECT_TRUE(p.ignited[0]);
+  append(p, {{.5, .5, .5}, {}, s.mass, 300, ParticleKind::soot, false});
+  const auto ignitedIn = [&](double temperature) {
+    for (float& value : box.temperature.values) value = static_cast<float>(temperature);
+    stepParticles(p, box.around(), s, 0.01);
+    return p.ignited;
+  };
+  EXPECT_EQ(ignitedIn(s.ignitionTemperature - 1), (std::vector<std::uint8_t>{0, 0}));
+  EXPECT_EQ(ignitedIn(s.ignitionTemperature), (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_EQ(ignitedIn(300), (std::vector<std::uint8_t>{1, 0}));  // what burns goes on
 }
 
 TEST(Burning, SootMassIsKept) {
@@ -204,11 +210,53 @@ TEST(ParticleStep, IsTheSameBitsOnAnyNumberOfThreadsAndVectors) {
   forceVectorPath(before);
 }
 
+TEST(ParticleStep, OfAnEmptyBoxIsTheSameWithoutALookAtItsFaces) {
+  Whirl whirl;
+  for (Grid3<float>* component : {&whirl.box.open.u, &whirl.box.open.v, &whirl.box.open.w})
+    std::fill(component->values.begin(), component->values.end(), 1.0f);
+  for (int i = 0; i < 16; ++i)
+    for (int k = 0; k < 16; ++k) whirl.box.open.v(i, 0, k) = 0;  // the floor
+  for (const Vec3d& place : {Vec3d(-.01, .5, .5), Vec3d(.5, 1.2, .5), Vec3d(2, .5, -2), Vec3d(.5, NAN, .5)})
+    append(whirl.particles, {place, {1, -3, 0}, 1e-4, 300, ParticleKind::fuel, false});
+  for (const bool periodic : {false, true})
+    for (const double dt : {0.0, 0.02, 0.3}) {  // within a cell, to neighbours, beyond
+      GasAround around = whirl.box.around();
+      around.periodic = {periodic, false, periodic};
+      ParticleSet looked = whirl.particles, trusted = whirl.particles;
+      stepParticles(looked, around, whirl.settings, dt);
+      around.empty = true;
+      stepParticles(trusted, around, whirl.settings, dt);
+      ASSERT_EQ(trusted.id, looked.id);
+      for (std::size_t n = 0; n < looked.size(); ++n) {
+        if (std::isnan(looked.position[n].y)) continue;
+        ASSERT_EQ(trusted.position[n], looked.position[n]);
+        ASSERT_EQ(trusted.velocity[n], looked.velocity[n]);
+        ASSERT_EQ(trusted.temperature[n], looked.temperature[n]);
+      }
+    }
+}
+
 TEST(ParticleStep, DoesNothingWithoutParticles) {
   const Box box;
   ParticleSet none;
   stepParticles(none, box.around(), {}, 0.01);
   EXPECT_EQ(none.size(), 0u);
+}
+
+TEST(Walls, ThatLieElsewhereStopNoParticleFromOutsideTheBox) {
+  Box box;
+  for (float& u : box.velocity.u.values) u = 20;
+  for (float& w : box.velocity.w.values) w = -5;
+  for (int j = 0; j < 16; ++j)  // where a row beyond the last of a layer would lie in memory, and beyond the last layer
+    for (int i = 0; i < 17; ++i) box.open.u(i, 0, 8) = box.open.u(i, j, 15) = 0;
+  ParticleSet p = oneFuel({.1, 1.01, 7.5 / 16}, BurnSettings{}.mass, false);
+  append(p, {{.1, .3, 1.01}, {20, 0, -5}, BurnSettings{}.mass, 300, ParticleKind::fuel, false});
+  for (float& v : box.velocity.v.values) v = -2;
+  p.velocity[0] = {20, -2, -5};
+  stepParticles(p, box.around(), {}, 0.02);
+  ASSERT_EQ(p.size(), 2u);
+  EXPECT_NEAR(p.position[0].x, .5, 1e-6);
+  EXPECT_LT(p.position[1].x, .126);  // the wall of the nearest layer holds
 }
 
 TEST(Soot, IsTheSameOnAnyNumberOfThreads) {
