@@ -99,7 +99,17 @@ double millisecondsOfBytes(int cells) {
 struct StepInput {
   AdvectionScheme advection;
   double whirls = 0;
+  bool hotEverywhere = false;
 };
+
+/// Smoke and heat in every cell, none of which a step may leave out.
+void heatEverywhere(FluidState& gas) {
+  for (std::int64_t n = 0; n < gas.temperature.count(); ++n) {
+    gas.temperature.values[n] += 100 + static_cast<float>(n % 7);
+    gas.soot.values[n] = 0.1f;
+    gas.flame.values[n] = 0.2f;
+  }
+}
 
 /// `bytes` is what moving its bytes once takes [ms], `times` how many times that the step takes.
 void stepGas(benchmark::State& state, int cells, const StepInput& input) {
@@ -108,6 +118,7 @@ void stepGas(benchmark::State& state, int cells, const StepInput& input) {
   settings.advection = input.advection;
   settings.vorticityConfinement = input.whirls;
   FluidState gas = burningIn(settings);
+  if (input.hotEverywhere) heatEverywhere(gas);
   FluidScratch scratch;
   FluidReport report;
   StepLimits limits = limitsOf(gas);
@@ -157,6 +168,7 @@ const bool registered = [] {
   for (const int cells : {64, 128, 256}) {
     const std::string size = fmt::format("/{}/", cells);
     add("Step/DonorCell" + size + "Brisance", stepGas, cells, StepInput{DonorCell{}});
+    add("Step/DonorCellHot" + size + "Brisance", stepGas, cells, StepInput{DonorCell{}, 0, true});
     add("Step/DonorCellWhirls" + size + "Brisance", stepGas, cells, StepInput{DonorCell{}, 0.5});
     add("Step/MacCormack" + size + "Brisance", stepGas, cells, StepInput{MacCormack{}});
     add("Step/Bytes" + size + "Memory", moveStep, cells);

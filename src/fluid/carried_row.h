@@ -36,83 +36,124 @@ struct FaceRow {
 };
 
 /// By how much samples come towards their neighbours across faces, in units of the c of `carryRow`.
-template <int floats, int speeds>
+template <int floats>
 struct DonorPair {
-  using V = NamedVectors<floats>;
-  typename V::Type below, above;  ///< the sample below the face, and the one above it
-  DonorPair(const float* const (&rows)[speeds], float upwindWeight, std::int64_t i) {
-    typename V::Type speed = V::at(rows[0] + i), upwind;
-    if constexpr (speeds == 2) speed += V::at(rows[1] + i);
-    V::magnitude(speed, upwind);
+  using Vector = typename NamedVectors<floats>::Type;
+  Vector below, above;  ///< the sample below the face, and the one above it
+  DonorPair(const Vector& speed, float upwindWeight) {
+    Vector upwind;
+    NamedVectors<floats>::magnitude(speed, upwind);
     upwind *= upwindWeight;
     below = speed - upwind;
     above = speed + upwind;
   }
 };
 
-/// Lets what a row of faces gives the samples above wait for them.
+/// Sums of one or two rows.
 template <int floats, int speeds>
-inline void awaitRow(std::int64_t count, const FaceRow<speeds>& face, float upwindWeight, float* waiting) {
+inline void addSpeeds(const float* const (&rows)[speeds], std::int64_t i, typename NamedVectors<floats>::Type& speed) {
   using V = NamedVectors<floats>;
-  if constexpr (floats > 1)
-    if (count < floats) return awaitRow<1>(count, face, upwindWeight, waiting);
-  const auto block = [&](std::int64_t i, std::int64_t slot) {
-    const DonorPair<floats, speeds> pair(face.speed, upwindWeight, i);
-    V::at(waiting + slot) = pair.above * (V::at(face.above + i) - V::at(face.below + i));
-  };
-  std::int64_t i = 0;
-  for (; i + floats <= count; i += floats) block(i, i);
-  if (i < count) block(count - floats, i);
+  speed = V::at(rows[0] + i);
+  if constexpr (speeds == 2) speed += V::at(rows[1] + i);
 }
 
-/// s - dt (u . grad) s of a row of `count` samples of each field, for c = dt / (2 h speeds): calls
+/// The faces above a block of samples.
+template <int floats>
+struct DonorFaces {
+  DonorPair<floats> x, y, z;
+};
+
+/// s - dt (u . grad) s of a block of samples. Legend: rise, to the neighbour above along each axis. `before` is what
+/// the faces along x give the block after this one, in the last number; `waiting` as in SamplesAbove, at the block's
+/// place.
+template <int floats>
+inline void carryBlock(const DonorFaces<floats>& faces, const typename NamedVectors<floats>::Type& here,
+                       const typename NamedVectors<floats>::Type (&rise)[3], float c, float* waitingY, float* waitingZ,
+                       typename NamedVectors<floats>::Type& before, typename NamedVectors<floats>::Type& carried) {
+  using V = NamedVectors<floats>;
+  const typename V::Type next = faces.x.above * rise[0];
+  typename V::Type alongX;
+  V::shift(before, next, alongX);
+  alongX += faces.x.below * rise[0];
+  const typename V::Type alongY = faces.y.below * rise[1] + V::at(waitingY),
+                         alongZ = faces.z.below * rise[2] + V::at(waitingZ);
+  before = next;
+  V::at(waitingY) = faces.y.above * rise[1];
+  V::at(waitingZ) = faces.z.above * rise[2];
+  carried = here - c * ((alongX + alongY) + alongZ);
+}
+
+/// What a face along x gives the sample above it, in the last number. Legend: speed; samples below and above.
+template <int floats>
+inline void awaitAlongX(float speed, float below, float above, float upwindWeight,
+                        typename NamedVectors<floats>::Type& before) {
+  const float share = speed + upwindWeight * std::abs(speed);
+  before = typename NamedVectors<floats>::Type{} + share * (above - below);
+}
+
+/// Samples [first, end) of a row of `count`. Both lie between lines of the cache, or at the row's ends.
+struct RowPart {
+  std::int64_t first, end, count;
+};
+
+/// Lets what a row of faces gives the samples above wait for them.
+template <int floats, int speeds>
+inline void awaitRow(const RowPart& part, const FaceRow<speeds>& face, float upwindWeight, float* waiting) {
+  using V = NamedVectors<floats>;
+  if constexpr (floats > 1)
+    if (part.count < floats) return awaitRow<1>(part, face, upwindWeight, waiting);
+  const auto block = [&](std::int64_t i, std::int64_t slot) {
+    typename V::Type speed;
+    addSpeeds<floats>(face.speed, i, speed);
+    const DonorPair<floats> pair(speed, upwindWeight);
+    V::at(waiting + slot) = pair.above * (V::at(face.above + i) - V::at(face.below + i));
+  };
+  std::int64_t i = part.first;
+  for (; i + floats <= part.end; i += floats) block(i, i);
+  if (i < part.end) block(part.count - floats, i);
+}
+
+/// s - dt (u . grad) s of a part of a row of samples of each field, for c = dt / (2 h speeds): calls
 /// visit.operator()<floats>(i, s) for blocks of them, and before each fetch(i). Where the last block is not a whole
 /// one, some samples are visited twice; what waits for it has a place of its own.
 template <int floats, int speeds, int fields, class Fetch, class Visit>
-inline void carryRow(std::int64_t count, const SpeedsAbove<speeds>& speedsAbove, const SamplesAbove (&samples)[fields],
+inline void carryRow(const RowPart& part, const SpeedsAbove<speeds>& speedsAbove, const SamplesAbove (&samples)[fields],
                      float upwindWeight, float c, const Fetch& fetch, const Visit& visit) {
   using V = NamedVectors<floats>;
   using Vector = typename V::Type;
   if constexpr (floats > 1)
-    if (count < floats) return carryRow<1>(count, speedsAbove, samples, upwindWeight, c, fetch, visit);
+    if (part.count < floats) return carryRow<1>(part, speedsAbove, samples, upwindWeight, c, fetch, visit);
   Vector before[fields];  // what the faces along x before a block give it, in the last number
   const auto begin = [&](std::int64_t i) {
     float speed = speedsAbove.row[0][0][i - 1];
     if constexpr (speeds == 2) speed += speedsAbove.row[0][1][i - 1];
-    const float share = speed + upwindWeight * std::abs(speed);
     for (int n = 0; n < fields; ++n)
-      before[n] = Vector{} + share * (samples[n].above[0][i - 1] - samples[n].here[i - 1]);
+      awaitAlongX<floats>(speed, samples[n].here[i - 1], samples[n].above[0][i - 1], upwindWeight, before[n]);
   };
   const auto block = [&](std::int64_t i, std::int64_t slot) {
     fetch(i);
-    const DonorPair<floats, speeds> x(speedsAbove.row[0], upwindWeight, i), y(speedsAbove.row[1], upwindWeight, i),
-        z(speedsAbove.row[2], upwindWeight, i);
-    Vector carried[fields];
+    Vector x, y, z, carried[fields];
+    addSpeeds<floats>(speedsAbove.row[0], i, x);
+    addSpeeds<floats>(speedsAbove.row[1], i, y);
+    addSpeeds<floats>(speedsAbove.row[2], i, z);
+    const DonorFaces<floats> faces{{x, upwindWeight}, {y, upwindWeight}, {z, upwindWeight}};
 #pragma GCC unroll 4
     for (int n = 0; n < fields; ++n) {
       const SamplesAbove& s = samples[n];
-      const Vector here = V::at(s.here + i), riseX = V::at(s.above[0] + i) - here, riseY = V::at(s.above[1] + i) - here,
-                   riseZ = V::at(s.above[2] + i) - here;
-      const Vector next = x.above * riseX;
-      Vector alongX;
-      V::shift(before[n], next, alongX);
-      alongX += x.below * riseX;
-      const Vector alongY = y.below * riseY + V::at(s.waiting[1] + slot),
-                   alongZ = z.below * riseZ + V::at(s.waiting[2] + slot);
-      before[n] = next;
-      V::at(s.waiting[1] + slot) = y.above * riseY;
-      V::at(s.waiting[2] + slot) = z.above * riseZ;
-      carried[n] = here - c * ((alongX + alongY) + alongZ);
+      const Vector here = V::at(s.here + i),
+                   rise[3] = {V::at(s.above[0] + i) - here, V::at(s.above[1] + i) - here, V::at(s.above[2] + i) - here};
+      carryBlock<floats>(faces, here, rise, c, s.waiting[1] + slot, s.waiting[2] + slot, before[n], carried[n]);
     }
     visit.template operator()<floats>(i, carried);
   };
-  std::int64_t i = 0;
-  begin(0);
+  const std::int64_t end = part.end;
+  std::int64_t i = part.first;
+  begin(i);
 #pragma GCC unroll 1
-  for (; i + floats <= count; i += floats) block(i, i);
-  if (i == count) return;
-  begin(count - floats);
-  block(count - floats, i);
+  for (; i + floats <= end; i += floats) block(i, i);
+  if (i == end) return;
+  begin(part.count - floats);
+  block(part.count - floats, i);
 }
 
 }  // namespace brisance

@@ -1,6 +1,8 @@
 #include "fluid/closing_sweep.h"
 
+#include "base/aligned.h"
 #include "base/parallel.h"
+#include "base/stream_copy.h"
 #include "base/vector_path.h"
 #include "fluid/solid_rows.h"
 
@@ -51,11 +53,16 @@ class GradientStep {
     gradientRow(couplingAt(k, n.z, 4), openRow(gas_.solid, 2, j, k), x_.row(j, k == 0 && around ? n.z - 1 : k - 1),
                 x_.row(j, k == n.z && around ? 0 : k), n.x, &gas_.velocity.w(0, j, k));
   }
-  void pressure(int j, int k) const {
+  /// `room` holds a row.
+  void pressure(int j, int k, float* room) const {
     const std::uint8_t* solids = solidsOfRow(gas_.solid, j, k);
     const float *x = x_.row(j, k), perTime = perTime_;
     float* p = &gas_.pressure(0, j, k);
     const int n = gas_.pressure.size.x;
+    if (first_ && !solids) {  // nobody reads it soon
+      for (int i = 0; i < n; ++i) room[i] = x[i] * perTime;
+      return streamCopy(p, room, n);
+    }
 #pragma GCC ivdep
     for (int i = 0; i < n; ++i) p[i] = (first_ ? 0.0f : p[i]) + x[i] * perTime;
     for (int i = 0; solids && i < n; ++i) p[i] = solids[i] ? 0.0f : p[i];
@@ -75,7 +82,8 @@ class GradientStep {
 
 /// Planes of cells with the faces above them; a row that has all its faces is looked at at once. The faces below the
 /// first plane are another task's, which may not be there yet.
-void closePlanes(const GradientStep& step, const Vec3i& n, int begin, int end, FlowLook& look, FlowFindings* planes) {
+void closePlanes(const GradientStep& step, const Vec3i& n, int begin, int end, FlowLook& look, float* room,
+                 FlowFindings* planes) {
   if (begin == 0)
     runWide([&] {
       for (int j = 0; j < n.y; ++j) step.alongZ(j, 0);
@@ -87,7 +95,7 @@ void closePlanes(const GradientStep& step, const Vec3i& n, int begin, int end, F
         step.alongX(j, k);
         step.alongY(j + 1, k);
         step.alongZ(j, k + 1);
-        step.pressure(j, k);
+        step.pressure(j, k, room);
       });
       if (k > begin || k == 0) look.row(j, k);
     }
@@ -103,8 +111,11 @@ FlowFindings closeStep(FluidState& gas, const Faces& faces, double dt, const Cel
   std::vector<FlowFindings> planes(n.z);
   parallelFor(0, tasks, 1, [&](std::int64_t begin, std::int64_t end) {
     FlowLook look(gas);
+    AlignedVector<float> room(n.x);
     for (int task = static_cast<int>(begin); task < end; ++task)
-      closePlanes(step, n, task * planesPerTask, std::min(n.z, (task + 1) * planesPerTask), look, planes.data());
+      closePlanes(step, n, task * planesPerTask, std::min(n.z, (task + 1) * planesPerTask), look, room.data(),
+                  planes.data());
+    endStreaming();
   });
   parallelFor(1, tasks, 1, [&](std::int64_t begin, std::int64_t end) {
     FlowLook look(gas);

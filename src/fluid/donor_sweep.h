@@ -4,14 +4,14 @@
 #pragma once
 
 #include "base/report.h"
-#include "fluid/fluid_state.h"
+#include "fluid/old_planes.h"
 
 namespace brisance {
 
-/// Where the sweeps write; swapped with the state.
 struct SweepScratch {
-  MacVelocity velocity;
-  Grid3<float> temperature, soot, flame;
+  MacVelocity velocity;  ///< written by a sweep, then swapped with the state's
+  ChangingSpans spans;
+  OldPlanes oldPlanes;
 };
 
 /// Whether they do all that the settings ask for in a step of some Courant number.

@@ -11,9 +11,14 @@
 namespace brisance {
 
 namespace {
-inline float larger(float a, float b) {
-  a = std::abs(a), b = std::abs(b);
-  return a > b ? a : b;
+/// The larger magnitude.
+template <int floats>
+inline void larger(const typename NamedVectors<floats>::Type& a, const typename NamedVectors<floats>::Type& b,
+                   typename NamedVectors<floats>::Type& result) {
+  typename NamedVectors<floats>::Type one, other;
+  NamedVectors<floats>::magnitude(a, one);
+  NamedVectors<floats>::magnitude(b, other);
+  result = one > other ? one : other;
 }
 /// Whether any is not zero.
 bool anySource(const float* rates, int count) {
@@ -37,36 +42,49 @@ void FlowFindings::operator+=(const FlowFindings& o) {
   fastest = std::max(fastest, o.fastest);
 }
 
-FlowLook::FlowLook(const FluidState& gas)
-    : gas_(gas),
-      perLength_(1 / gas.divergence.cellSize),
-      wrong_(gas.divergence.size.x),
-      source_(gas.divergence.size.x),
-      created_(gas.divergence.size.x),
-      fastest_(gas.divergence.size.x) {}
+FlowLook::FlowLook(const FluidState& gas) : gas_(gas), perLength_(static_cast<float>(1 / gas.divergence.cellSize)) {}
 
-template <bool solids, bool sources>
+template <int floats, bool solids, bool sources>
 void FlowLook::addSums(const Row& at) {
   const Row row = at;  // which no store changes
-  const double perLength = perLength_;
-  double *wrong = wrong_.parts(), *source = source_.parts(), *created = created_.parts();
-  float* fastest = fastest_.parts();
-  const int count = gas_.divergence.size.x;
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    const bool solid = solids && row.solids[i];
-    const double phi = sources ? row.phi[i] : 0.0f, along = double(row.u[i + 1]) - row.u[i],
-                 up = double(row.vUpper[i]) - row.v[i], across = double(row.wUpper[i]) - row.w[i],
-                 lack = ((along + up) + across) * perLength - phi;
-    const double lackSquared = lack * lack, phiSquared = phi * phi;
-    wrong[i] += solid ? 0 : lackSquared;
+  const float perLength = perLength_;
+  enum { fastest, wrong, source, created };
+  std::array<Lanes, sources ? 4 : 2> lanes{fastest_};
+  overLanes<floats>(gas_.divergence.size.x, lanes, [=]<int n>(std::int64_t i, auto& sums) {
+    using V = NamedVectors<n>;
+    using Vector = typename V::Type;
+    const Vector u = V::at(row.u + i), uUpper = V::at(row.u + i + 1), v = V::at(row.v + i),
+                 vUpper = V::at(row.vUpper + i), w = V::at(row.w + i), wUpper = V::at(row.wUpper + i), none{};
+    Vector lack = (((uUpper - u) + (vUpper - v)) + (wUpper - w)) * perLength, speed, speedV, speedW;
+    [[maybe_unused]] typename V::Bits solid;
+    if constexpr (solids) V::whereSet(row.solids + i, solid);
     if constexpr (sources) {
-      source[i] += solid ? 0 : phiSquared;
-      created[i] += solid ? 0 : phi;
+      const Vector phi = V::at(row.phi + i), phiSquared = phi * phi;
+      lack -= phi;
+      if constexpr (solids) {
+        sums[source] += solid ? none : phiSquared;
+        sums[created] += solid ? none : phi;
+      } else {
+        sums[source] += phiSquared;
+        sums[created] += phi;
+      }
     }
-    const float speed =
-        larger(row.u[i], row.u[i + 1]) + larger(row.v[i], row.vUpper[i]) + larger(row.w[i], row.wUpper[i]);
-    fastest[i] = speed > fastest[i] ? speed : fastest[i];
+    const Vector lackSquared = lack * lack;
+    if constexpr (solids)
+      sums[wrong] += solid ? none : lackSquared;
+    else
+      sums[wrong] += lackSquared;
+    larger<n>(u, uUpper, speed);
+    larger<n>(v, vUpper, speedV);
+    larger<n>(w, wUpper, speedW);
+    speed = (speed + speedV) + speedW;
+    sums[fastest] = speed > sums[fastest] ? speed : sums[fastest];
+  });
+  fastest_ = lanes[fastest];
+  wrong_.add(lanes[wrong]);
+  if constexpr (sources) {
+    source_.add(lanes[source]);
+    created_.add(lanes[created]);
   }
 }
 
@@ -89,18 +107,18 @@ void FlowLook::row(int j, int k) {
                 &m.w(0, j, k + 1),
                 &gas_.divergence(0, j, k),
                 solidsOfRow(gas_.solid, j, k)};
-  runWide([&] {
+  runWithVectors([&]<int floats>() {
     const bool sources = anySource(row.phi, gas_.divergence.size.x);
     if (row.solids)
-      sources ? addSums<true, true>(row) : addSums<true, false>(row);
+      sources ? addSums<floats, true, true>(row) : addSums<floats, true, false>(row);
     else
-      sources ? addSums<false, true>(row) : addSums<false, false>(row);
+      sources ? addSums<floats, false, true>(row) : addSums<floats, false, false>(row);
   });
   outward_ += outwardAt(row, j, k);
 }
 
 FlowFindings FlowLook::take() {
-  return {wrong_.take(), source_.take(), created_.take(), std::exchange(outward_, 0.0), fastest_.take()};
+  return {wrong_.take(), source_.take(), created_.take(), std::exchange(outward_, 0.0), takeLargest(fastest_)};
 }
 
 FlowFindings sumOf(const std::vector<FlowFindings>& planes) {

@@ -4,12 +4,13 @@
 
 #include <cmath>
 
-#include "base/row_sum.h"
+#include "base/row_lanes.h"
 #include "fluid/fluid_state.h"
 
 namespace brisance {
 
-/// Sums over the cells of gas, in double precision.
+/// Sums over the cells of gas. The divergence is found in single precision: neighbouring speeds are alike, and what
+/// their difference lacks is less than what rounded the speeds themselves.
 struct FlowFindings {
   double wrong = 0;    ///< [1/s2] sum of (div u - phi)^2
   double source = 0;   ///< [1/s2] sum of phi^2
@@ -36,14 +37,14 @@ class FlowLook {
     const float *u, *v, *vUpper, *w, *wUpper, *phi;
     const std::uint8_t* solids;  ///< null: no cell is solid
   };
-  template <bool solids, bool sources>
+  template <int floats, bool solids, bool sources>
   void addSums(const Row& row);
   double outwardAt(const Row& row, int j, int k) const;
 
   const FluidState& gas_;
-  double perLength_;
-  RowSum wrong_, source_, created_;
-  RowMax fastest_;
+  float perLength_;
+  LaneTotal wrong_, source_, created_;
+  Lanes fastest_{};
   double outward_ = 0;
 };
 

@@ -33,13 +33,13 @@ class GhostRows {
     for (; i + lineFloats <= count; i += lineFloats) std::memcpy(to + i, from + i, lineFloats * sizeof(float));
     for (; i < count; ++i) to[i] = from[i];
   }
-  /// Likewise, with its ghosts at [-1] and [length()]. `room` holds length() floats and a line of the cache at both
-  /// ends; where it starts at one, so do the samples.
-  const float* withEnds(int j, int k, float* room) const {
-    float* copy = room + lineFloats;
-    copyRow(j, k, copy);
-    addEnds(rowsOfCrossing(j, k), velocity_.u, copy);
-    return copy;
+  /// Likewise of samples [first, end) alone, with their neighbours at both ends, or ghosts at [-1] and [length()].
+  void copyPart(int j, int k, int first, int end, float* to) const {
+    const float* from = &samples_(0, j, k);
+    for (int i = first; i < end; ++i) to[i] = from[i];
+    if (first > 0) to[first - 1] = from[first - 1];
+    if (end < length()) to[end] = from[end];
+    if (first == 0 || end == length()) addEnds(rowsOfCrossing(j, k), velocity_.u, to);
   }
 
   /// Rows of cells whose speeds along x, added, tell whether gas comes in at the ends of a row of samples: a velocity

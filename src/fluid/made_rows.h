@@ -1,6 +1,8 @@
 // Rows of numbers that sweeps over the gas make as they go.
 #pragma once
 
+#include <algorithm>
+
 #include "base/aligned.h"
 #include "base/row_lines.h"
 #include "grid/grid3.h"
@@ -13,6 +15,7 @@ class Rooms {
   Rooms(int length, int count)
       : width_((length + lineFloats - 1) / lineFloats * lineFloats + 2 * lineFloats),
         floats_(width_ * static_cast<std::size_t>(count), 0.0f) {}
+  void clear() { std::fill(floats_.begin(), floats_.end(), 0.0f); }
   float* operator[](int n) { return floats_.data() + n * width_; }
 
  private:

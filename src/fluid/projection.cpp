@@ -1,6 +1,7 @@
 #include "fluid/projection.h"
 
 #include "base/parallel.h"
+#include "base/row_lanes.h"
 #include "base/row_sum.h"
 #include "base/vector_path.h"
 #include "fluid/solid_rows.h"
@@ -17,12 +18,26 @@ FaceRows facesOf(const MacVelocity& m, int j, int k) {
   return {&m.u(0, j, k), &m.v(0, j, k), &m.v(0, j + 1, k), &m.w(0, j, k), &m.w(0, j, k + 1)};
 }
 
-void sourceRow(const FaceRows& m, const float* phi, float h, int count, float* b) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    const float divergence = ((m.u[i + 1] - m.u[i]) + (m.vUpper[i] - m.v[i])) + (m.wUpper[i] - m.w[i]);
-    b[i] = h * (h * phi[i] - divergence);
-  }
+/// Writes h (h phi - div u h) and adds up the squares of it and of the speeds.
+template <int floats>
+void sourceRow(const FaceRows& faces, const float* phi, const std::uint8_t* solids, float h, int count, float* b,
+               std::array<Lanes, 2>& squares) {
+  const FaceRows m = faces;  // which no store changes
+  overLanes<floats>(count, squares, [=]<int n>(std::int64_t i, auto& sums) {
+    using V = NamedVectors<n>;
+    using Vector = typename V::Type;
+    const Vector u = V::at(m.u + i), uUpper = V::at(m.u + i + 1), v = V::at(m.v + i), w = V::at(m.w + i);
+    const Vector vUpper = V::at(m.vUpper + i), wUpper = V::at(m.wUpper + i), rate = V::at(phi + i), none{};
+    Vector source = h * (h * rate - (((uUpper - u) + (vUpper - v)) + (wUpper - w)));
+    if (solids) {
+      typename V::Bits solid;
+      V::whereSet(solids + i, solid);
+      source = solid ? none : source;
+    }
+    V::at(b + i) = source;
+    sums[0] += source * source;
+    sums[1] += (u * u + v * v) + w * w;
+  });
 }
 
 inline double squared(float value) { return double(value) * value; }
@@ -33,18 +48,15 @@ VelocitySource::VelocitySource(const FluidState& gas) : gas_(gas), planes_(gas.p
 void VelocitySource::plane(int k, float* b, std::int64_t stride) {
   const Vec3i n = gas_.pressure.size;
   const float h = static_cast<float>(gas_.pressure.cellSize);
-  RowSum source(n.x), speeds(n.x);
+  LaneTotal source, speeds;
   for (int j = 0; j < n.y; ++j) {
     const FaceRows m = facesOf(gas_.velocity, j, k);
     const float* phi = &gas_.divergence(0, j, k);
     const std::uint8_t* solids = solidsOfRow(gas_.solid, j, k);
-    float* row = b + j * stride;
-    runWide([&] {
-      sourceRow(m, phi, h, n.x, row);
-      for (int i = 0; solids && i < n.x; ++i) row[i] = solids[i] ? 0.0f : row[i];
-      source.add([=](std::int64_t i) { return squared(row[i]); });
-      speeds.add([=](std::int64_t i) { return (m.u[i] * m.u[i] + m.v[i] * m.v[i]) + m.w[i] * m.w[i]; });
-    });
+    std::array<Lanes, 2> squares{};
+    runWithVectors([&]<int floats>() { sourceRow<floats>(m, phi, solids, h, n.x, b + j * stride, squares); });
+    source.add(squares[0]);
+    speeds.add(squares[1]);
   }
   planes_[k] = {source.take(), speeds.take()};
 }

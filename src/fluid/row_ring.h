@@ -1,5 +1,5 @@
-// A strip's rows of a few neighbouring planes, copied with their ghosts to memory of their own, where all start at lines
-// of the cache.
+// A strip's rows of a few neighbouring planes, copied with their ghosts to memory of their own, where all start at
+// lines of the cache.
 #pragma once
 
 #include "base/aligned.h"

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "base/row_sum.h"
+#include "fluid/changing_spans.h"
 #include "fluid/made_rows.h"
 
 namespace brisance {
@@ -21,36 +23,46 @@ struct HeatSums {
   }
 };
 
-constexpr int fields = 3;  // temperature, soot, flame
+constexpr int scalarFields = 3;  // temperature, soot, flame
 
 /// What one thread needs: rows that are made, what waits for samples, sums.
 struct ScalarRoom {
-  ScalarRoom(int length, int rowsPerStrip)
-      : ended(length, 2 * fields),
-        beyond(length, 3 * fields),
-        planeEnd(length, fields * rowsPerStrip),
-        rowEnd(length, fields),
+  ScalarRoom(int length, int rows)
+      : old(length, 2 * scalarFields),
+        first(length, scalarFields),
+        beyond(length, 3 * scalarFields),
+        planeEnd(length, scalarFields * rows),
+        rowEnd(length, scalarFields),
         gained(length),
         heated(length),
         radiated(length),
         created(length),
         hottest(length) {}
   /// Of a field: what waits along y for its next row, along z for row `row` of the next plane.
-  float* waiting(int field, int axis, int row) { return axis == 1 ? rowEnd[field] : planeEnd[fields * row + field]; }
+  float* waiting(int field, int axis, int row) {
+    return axis == 1 ? rowEnd[field] : planeEnd[scalarFields * row + field];
+  }
+  /// What the rows since the last time hold.
+  HeatSums take() {
+    return {gained.take(), heated.take(), radiated.take(), created.take(), std::exchange(outward, 0.0), hottest.take()};
+  }
 
-  Rooms ended, beyond, planeEnd, rowEnd;
+  Rooms old, first, beyond, planeEnd, rowEnd;
+  int held = -1;  ///< the last row of a plane copied to `old`
   RowSum gained, heated, radiated, created;
   RowMax hottest;
+  double outward = 0;
 };
 
-/// A row of cells and what is written to it.
+/// A row of cells and where its scalars are, which are replaced.
 struct ScalarRow {
   int j, k;
-  const float* temperature;                  ///< with ghosts at its ends
+  RowSpan span;                              ///< what changes
+  const float* old[scalarFields];            ///< copies, with ghosts at their ends
   const float *lowerFace[3], *upperFace[3];  ///< speeds at the two sides of cells along each axis
   const std::uint8_t* inside;                ///< null: no cell is solid
   const float *heatRate, *burnRate;
-  float *newTemperature, *newSoot, *newFlame;
+  float *temperature, *soot, *flame;
   /// Times the size of a cell.
   float divergence(std::int64_t i) const {
     return (upperFace[0][i] - lowerFace[0][i]) + (upperFace[1][i] - lowerFace[1][i]) +

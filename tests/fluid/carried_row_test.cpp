@@ -45,13 +45,13 @@ struct Sample {
   std::vector<float> carried() const {
     std::vector<float> result(count), alongY(count + 16), alongZ(count + 16);
     runWithVectors([&]<int floats>() {
-      awaitRow<floats>(count, FaceRow<1>{{&v[1]}, &back[1], &here[1]}, weight, alongY.data());
-      awaitRow<floats>(count, FaceRow<1>{{&w[1]}, &down[1], &here[1]}, weight, alongZ.data());
+      awaitRow<floats>({0, count, count}, FaceRow<1>{{&v[1]}, &back[1], &here[1]}, weight, alongY.data());
+      awaitRow<floats>({0, count, count}, FaceRow<1>{{&w[1]}, &down[1], &here[1]}, weight, alongZ.data());
       const SamplesAbove samples[1] = {
           {&here[1], {&here[2], &forth[1], &up[1]}, {nullptr, alongY.data(), alongZ.data()}}};
       carryRow<floats>(
-          count, SpeedsAbove<1>{{{&u[2]}, {&vAbove[1]}, {&wAbove[1]}}}, samples, weight, c, [](std::int64_t) {},
-          [&]<int n>(std::int64_t i, const auto& s) { NamedVectors<n>::at(&result[i]) = s[0]; });
+          {0, count, count}, SpeedsAbove<1>{{{&u[2]}, {&vAbove[1]}, {&wAbove[1]}}}, samples, weight, c,
+          [](std::int64_t) {}, [&]<int n>(std::int64_t i, const auto& s) { NamedVectors<n>::at(&result[i]) = s[0]; });
     });
     return result;
   }
@@ -74,12 +74,13 @@ TEST(CarriedRow, WhatWaitsForTheRowAboveIsWhatItsOwnFacesWouldGiveIt) {
   const Sample sample(count);
   std::vector<float> waiting(48), again(48), none(48);
   runWithVectors([&]<int floats>() {
-    awaitRow<floats>(count, FaceRow<1>{{&sample.vAbove[1]}, &sample.here[1], &sample.forth[1]}, weight, again.data());
+    awaitRow<floats>({0, count, count}, FaceRow<1>{{&sample.vAbove[1]}, &sample.here[1], &sample.forth[1]}, weight,
+                     again.data());
     const SamplesAbove samples[1] = {
         {&sample.here[1], {&sample.here[2], &sample.forth[1], &sample.up[1]}, {nullptr, waiting.data(), none.data()}}};
     carryRow<floats>(
-        count, SpeedsAbove<1>{{{&sample.u[2]}, {&sample.vAbove[1]}, {&sample.wAbove[1]}}}, samples, weight, c,
-        [](std::int64_t) {}, []<int n>(std::int64_t, const auto&) {});
+        {0, count, count}, SpeedsAbove<1>{{{&sample.u[2]}, {&sample.vAbove[1]}, {&sample.wAbove[1]}}}, samples, weight,
+        c, [](std::int64_t) {}, []<int n>(std::int64_t, const auto&) {});
   });
   EXPECT_EQ(waiting, again);
 }

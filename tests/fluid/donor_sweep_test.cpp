@@ -79,6 +79,27 @@ void expectSameFields(const FluidState& a, const FluidState& b, double speedTole
     EXPECT_LT(largestDifference(a.velocity.component(axis).values, b.velocity.component(axis).values), speedTolerance);
 }
 
+/// What the sweeps do, by the steps of which they consist.
+Balance stepOneAfterTheOther(FluidState& gas, const FluidSettings& s) {
+  AdvectionScratch scratch;
+  const double before = heatContent(gas, s);
+  Balance heat = advectScalar(gas.temperature, gas, s, 300, dt, scratch);
+  heat.in *= s.heatCapacity;
+  heat.out *= s.heatCapacity;
+  heat += heatAndCool(gas, s, dt);
+  advectScalar(gas.soot, gas, s, 0, dt, scratch);
+  advectScalar(gas.flame, gas, s, 0, dt, scratch);
+  for (std::int64_t n = 0; n < gas.soot.count(); ++n) {
+    const double burnt = dt * gas.burnRate.values[n];
+    gas.soot.values[n] += static_cast<float>(sootPerMass * burnt);
+    gas.flame.values[n] = static_cast<float>(gas.flame.values[n] * std::exp(-dt / s.flameLifetime) + burnt);
+  }
+  advectVelocity(gas, s, dt, scratch);
+  addForces(gas, s, dt);
+  heat.gained = heatContent(gas, s) - before;
+  return heat;
+}
+
 TEST(DonorSweep, DoesWhatTheStepsDoOneAfterTheOtherInEveryKindOfBox) {
   for (const FluidSettings& s : allKindsOfBoxes())
     for (const bool solids : {false, true}) {
@@ -88,28 +109,71 @@ TEST(DonorSweep, DoesWhatTheStepsDoOneAfterTheOtherInEveryKindOfBox) {
       const Balance heat = sweepScalars(swept, s, {sootPerMass, s.flameLifetime}, dt, sweep, hottest);
       EXPECT_EQ(hottest, largestMagnitude(swept.temperature));
       sweepVelocity(swept, s, dt, sweep);
-
-      AdvectionScratch scratch;
-      const double before = heatContent(stepped, s);
-      Balance expected = advectScalar(stepped.temperature, stepped, s, 300, dt, scratch);
-      expected.in *= s.heatCapacity;
-      expected.out *= s.heatCapacity;
-      expected += heatAndCool(stepped, s, dt);
-      advectScalar(stepped.soot, stepped, s, 0, dt, scratch);
-      advectScalar(stepped.flame, stepped, s, 0, dt, scratch);
-      for (std::int64_t n = 0; n < stepped.soot.count(); ++n) {
-        const double burnt = dt * stepped.burnRate.values[n];
-        stepped.soot.values[n] += static_cast<float>(sootPerMass * burnt);
-        stepped.flame.values[n] = static_cast<float>(stepped.flame.values[n] * std::exp(-dt / s.flameLifetime) + burnt);
-      }
-      advectVelocity(stepped, s, dt, scratch);
-      addForces(stepped, s, dt);
+      const Balance expected = stepOneAfterTheOther(stepped, s);
       expectSameFields(swept, stepped, 2e-6);
       EXPECT_NEAR(heat.in / expected.in, 1, 1e-5);
       EXPECT_NEAR(heat.lost / expected.lost, 1, 1e-5);
       EXPECT_NEAR(heat.out, expected.out, 1e-5 * heat.in);
-      EXPECT_NEAR(heat.gained, heatContent(stepped, s) - before, 1e-5 * heat.in);
+      EXPECT_NEAR(heat.gained, expected.gained, 1e-5 * heat.in);
     }
+}
+
+/// Gas as rough, but ambient outside a ball around a cell, across the faces of a periodic box.
+FluidState ballOfGas(const FluidSettings& s, const Vec3i& middle) {
+  FluidState gas = roughGas(s, false);
+  for (int k = 0; k < s.cells.z; ++k)
+    for (int j = 0; j < s.cells.y; ++j)
+      for (int i = 0; i < s.cells.x; ++i) {
+        const Vec3i cell{i, j, k};
+        int squared = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          int away = std::abs(cell[axis] - middle[axis]);
+          if (s.faces[2 * axis] == FaceKind::periodic) away = std::min(away, s.cells[axis] - away);
+          squared += away * away;
+        }
+        if (squared <= 9) continue;
+        gas.temperature(i, j, k) = 300;
+        for (Grid3<float>* field : {&gas.soot, &gas.flame, &gas.burnRate, &gas.heatRate}) (*field)(i, j, k) = 0;
+      }
+  return gas;
+}
+
+TEST(DonorSweep, LeavesOutNothingOfABallOfGasWhereverItIs) {
+  for (FluidSettings s : allKindsOfBoxes())
+    for (const int width : {15, 37, 48}) {  // where several slabs of planes meet
+      s.cells = {width, 9, 35};
+      s.cellSize = 1.0 / 21;
+      for (const Vec3i& middle : {Vec3i{0, 0, 0}, {width - 1, 8, 34}, {width / 2, 4, 15}, {18 % width, 7, 16}}) {
+        FluidState swept = ballOfGas(s, middle), stepped = swept;
+        SweepScratch sweep;
+        double hottest = 0;
+        const Balance heat = sweepScalars(swept, s, {sootPerMass, s.flameLifetime}, dt, sweep, hottest);
+        EXPECT_EQ(hottest, largestMagnitude(swept.temperature));
+        sweepVelocity(swept, s, dt, sweep);
+        const Balance expected = stepOneAfterTheOther(stepped, s);
+        expectSameFields(swept, stepped, 2e-6);
+        const double heats = std::abs(expected.in) + std::abs(expected.gained);
+        EXPECT_NEAR(heat.in, expected.in, 1e-5 * heats);
+        EXPECT_NEAR(heat.out, expected.out, 1e-5 * heats);
+        EXPECT_NEAR(heat.gained, expected.gained, 1e-5 * heats);
+      }
+    }
+}
+
+TEST(DonorSweep, TooLittleSootAndFlameAreNone) {
+  const FluidSettings s = box({20, 8, 8});
+  FluidState gas = gasIn(s);
+  gas.velocity.u.values.assign(gas.velocity.u.values.size(), 1);
+  gas.soot(5, 4, 4) = 3e-12f;
+  gas.flame(5, 4, 4) = 1.0f;
+  SweepScratch scratch;
+  double hottest = 0;
+  for (int step = 0; step < 100; ++step) {
+    sweepScalars(gas, s, {sootPerMass, s.flameLifetime}, dt, scratch, hottest);
+    for (const Grid3<float>* field : {&gas.soot, &gas.flame})
+      for (const float density : field->values) ASSERT_TRUE(density == 0 || std::abs(density) >= 1e-12f) << density;
+  }
+  EXPECT_EQ(largestMagnitude(gas.soot), 0);
 }
 
 TEST(DonorSweep, HasTheSameBitsWithAnyVectorsAndThreads) {
