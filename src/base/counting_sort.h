@@ -22,8 +22,6 @@ struct Binned {
     return {items.data() + start[number], items.data() + start[number + 1]};
   }
 
-  std::int64_t bins() const { return std::ssize(start) - 1; }
-
   AlignedVector<Item> grouped;             ///< block after block of what came, each in order of groups of bins
   std::vector<std::int32_t> groupedBinOf;  ///< of the grouped items
   std::vector<std::uint32_t> pieceStart;   ///< per block and group: the first grouped item, and the block's end

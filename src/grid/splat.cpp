@@ -28,16 +28,6 @@ struct RowsAround {
   float gain[4];
 };
 
-/// Asks for the points of a row that come with the next layer: a strip's points of a layer are too few for the
-/// processor to see by itself where they go on.
-template <class Point>
-inline void fetch(std::span<const Point> points) {
-  constexpr std::ptrdiff_t line = 64;
-  const char* bytes = reinterpret_cast<const char*>(points.data());
-  for (std::ptrdiff_t n = 0; n < static_cast<std::ptrdiff_t>(points.size_bytes()); n += line)
-    __builtin_prefetch(bytes + n);
-}
-
 /// What a point gives is amount * (share along x * share along y and z).
 template <int channels>
 inline CellSpan addPoints(std::span<const SplatPoint<channels>> points, const float* gainX, const RowsAround& rows) {
@@ -80,9 +70,7 @@ void LayerSplat<channels>::operator()(const CellSpan& rows, int k, LayerRows& ne
 template <int channels>
 void LayerSplat<channels>::addRow(int j, int k, LayerRows& near, LayerRows& far) const {
   const int y = j + firstCell_.y, z = k + firstCell_.z;
-  const std::int64_t row = y + static_cast<std::int64_t>(rowsPerLayer_) * z;
-  if (row + rowsPerLayer_ < points_.bins()) fetch(points_.bin(row + rowsPerLayer_));
-  const auto points = points_.bin(row);
+  const auto points = points_.bin(y + static_cast<std::int64_t>(rowsPerLayer_) * z);
   if (points.empty()) return;
   const std::int64_t shift = static_cast<std::int64_t>(channels) * firstCell_.x;
   const RowsAround around{{near[j] - shift, near[j + 1] - shift, far[j] - shift, far[j + 1] - shift},
