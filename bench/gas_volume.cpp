@@ -1,6 +1,7 @@
 // The volume of the picture, and gas as files: beside OpenVDB.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -9,6 +10,8 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/stopwatch.h"
+#include "base/stream_copy.h"
 #include "frame/gas_file.h"
 #include "frame/particle_volume.h"
 
@@ -23,6 +26,7 @@ namespace {
 
 constexpr int volumeCells = 300, particleCount = 1'000'000;
 constexpr double cellSize = 1.0 / volumeCells;
+constexpr std::int64_t volumeFloats = std::int64_t{4} * volumeCells * volumeCells * volumeCells;
 
 /// All over the box: nothing is empty.
 FrameParticles spreadParticles() {
@@ -79,6 +83,41 @@ double errorOf(const ParticleVolume& volume, const FrameParticles& particles, do
   return error / largest;
 }
 
+/// Reads an array as large as the volume once and writes another, past the caches, by all threads: what a blur does at
+/// least to one that is there already.
+class VolumeCopy {
+ public:
+  void operator()() {
+    constexpr std::int64_t grain = 1 << 20;
+    parallelFor(0, std::ssize(from_), grain, [&](std::int64_t first, std::int64_t last) {
+      streamCopy(&to_[first], &from_[first], last - first);
+      endStreaming();
+    });
+  }
+
+ private:
+  AlignedVector<float> from_ = AlignedVector<float>(volumeFloats, 1.f), to_ = from_;
+};
+
+void copyVolume(benchmark::State& state) {
+  VolumeCopy copy;
+  for (auto _ : state) copy();
+  state.counters["threads"] = threadCount();
+}
+
+/// In this run, the median of some.
+double secondsOfCopy() {
+  VolumeCopy copy;
+  std::array<double, 9> seconds;
+  Stopwatch watch;
+  for (double& lap : seconds) {
+    copy();
+    lap = watch.lap();
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[seconds.size() / 2];
+}
+
 void splatAndBlur(benchmark::State& state, double deviation, int filterSize) {
   const FrameParticles particles = spreadParticles();
   const ParticleVolumeSettings settings = volumeSettings(deviation, filterSize);
@@ -86,18 +125,22 @@ void splatAndBlur(benchmark::State& state, double deviation, int filterSize) {
   ParticleVolume volume;
   SplatScratch scratch;
   splatParticles(particles, settings, weigh, colourOf, volume, scratch);  // fresh memory comes once in a film
+  Stopwatch watch;
   for (auto _ : state) splatParticles(particles, settings, weigh, colourOf, volume, scratch);
+  const double seconds = watch.lap() / static_cast<double>(state.iterations());
+  static const double copySeconds = secondsOfCopy();
   state.counters["threads"] = threadCount();
+  state.counters["timesTheCopy"] = seconds / copySeconds;
   const int radius = filterSize > 0 ? filterSize / 2 : static_cast<int>(std::ceil(3 * deviation));
   state.counters["error"] = errorOf(volume, particles, deviation, radius);
 }
 
-/// The bytes of the volume stored once, by all threads: the least that any splat does.
+/// The bytes of the volume stored once, by all threads and ordinary stores: the least that any splat does.
 void storeVolume(benchmark::State& state) {
-  constexpr std::int64_t floats = std::int64_t{4} * volumeCells * volumeCells * volumeCells, grain = 1 << 20;
-  AlignedVector<float> volume(floats);
+  constexpr std::int64_t grain = 1 << 20;
+  AlignedVector<float> volume(volumeFloats);
   for (auto _ : state)
-    parallelFor(0, floats, grain, [&](std::int64_t first, std::int64_t last) {
+    parallelFor(0, volumeFloats, grain, [&](std::int64_t first, std::int64_t last) {
       std::fill(&volume[first], &volume[first] + (last - first), 1.f);
     });
   state.counters["threads"] = threadCount();
@@ -261,7 +304,8 @@ const bool registered = [] {
   add("SplatBlur/Particles/300/Brisance", splatAndBlur, 1.0, 5);        // the thesis' nf = 5
   add("SplatBlur/ParticlesWide/300/Brisance", splatAndBlur, 6.0, 0);    // the scenes' default: 37 cells
   add("SplatBlur/ParticlesPeer/300/Brisance", splatAndBlur, 1.633, 0);  // as wide as the peer's
-  add("SplatBlur/Bytes/300/Memory", storeVolume);
+  add("SplatBlur/StoreVolume/300/Memory", storeVolume);
+  add("SplatBlur/CopyVolume/300/Memory", copyVolume);
   add("WriteVdb/Explosion/128/Brisance", writeExplosion);
   add("WriteVdb/ExplosionInMemory/128/Brisance", packExplosion);
 #ifdef BRISANCE_HAS_OPENVDB

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t bufferBytes = 1 << 18;  // large enough that the cost of a system call vanishes
+constexpr std::size_t bufferBytes = 1 << 20;  // large enough that the cost of a system call vanishes
+constexpr std::size_t startBytes = 1 << 22;   // what is worth telling the disk of
 
 /// Counts and hashes what it writes, and remembers why the system refused.
 class CheckedBuffer : public std::streambuf {
@@ -63,16 +64,26 @@ class CheckedBuffer : public std::streambuf {
       if (written < 0) {
         reason_ = errno;
       } else {
+        startDisk(static_cast<std::size_t>(written));
         bytes += written;
         count -= static_cast<std::size_t>(written);
       }
     }
   }
 
+  /// While more comes the disk may take what has come; nobody waits here, and no refusal is lost to the sync.
+  void startDisk(std::size_t written) {
+    waiting_ += written;
+    if (waiting_ < startBytes) return;
+    ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);
+    waiting_ = 0;
+  }
+
   int descriptor_;
   std::vector<char> buffer_;
   ContentHash hash_;
   std::uint64_t size_ = 0;
+  std::size_t waiting_ = 0;
   int reason_ = 0;
 };
 

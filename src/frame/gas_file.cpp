@@ -114,7 +114,7 @@ GridHead writeHead(const openvdb::GridBase& grid) {
 /// A grid of the file: the head, then the leaves.
 struct PackedGrid {
   GridHead head;
-  std::vector<std::string> leaves;
+  std::vector<RawBytes> leaves;
   std::string content;
 };
 
@@ -138,7 +138,7 @@ std::int64_t placeAt(PackedGrid& grid, std::int64_t place) {
   std::int64_t end = place + std::ssize(head.bytes);
   head.descriptor.setGridPos(place + static_cast<std::int64_t>(head.contents));
   head.descriptor.setBlockPos(end);
-  for (const std::string& leaves : grid.leaves) end += std::ssize(leaves);
+  for (const RawBytes& leaves : grid.leaves) end += std::ssize(leaves);
   head.descriptor.setEndPos(end);
   std::ostringstream offsets(std::ios_base::binary);
   head.descriptor.writeStreamPos(offsets);
@@ -250,39 +250,55 @@ std::string contentHash(const FrameGas& gas) {
                     contentHash(source.velocity)});
 }
 
+namespace {
+/// Nested loops: where one grid has little for several threads, they find others.
+std::array<PackedGrid, 4> packGrids(const GasSource& gas, const GasConventions& conventions) {
+  const bool zUp = conventions.zUp;
+  std::array<PackedGrid, 4> grids;
+  parallelFor(0, std::ssize(grids), 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t n = first; n < last; ++n) {
+      if (n == 0) grids[0] = packGrid<openvdb::FloatGrid>(gas.density, "density", zUp);
+      if (n == 1) grids[1] = packGrid<openvdb::FloatGrid>(gas.temperature, "temperature", zUp);
+      if (n == 2) grids[2] = packGrid<openvdb::FloatGrid>(gas.flame, "flame", zUp);
+      if (n == 3) grids[3] = packVelocity(gas.velocity, conventions);
+    }
+  });
+  return grids;
+}
+}  // namespace
+
 PackedGas packGas(const GasSource& gas, const GasConventions& conventions) {
   openvdb::initialize();
-  const bool zUp = conventions.zUp;
-  std::array<PackedGrid, 4> grids{packGrid<openvdb::FloatGrid>(gas.density, "density", zUp),
-                                  packGrid<openvdb::FloatGrid>(gas.temperature, "temperature", zUp),
-                                  packGrid<openvdb::FloatGrid>(gas.flame, "flame", zUp),
-                                  packVelocity(gas.velocity, conventions)};
+  std::array<PackedGrid, 4> grids = packGrids(gas, conventions);
   PackedGas packed{{}, contentOf({grids[0].content, grids[1].content, grids[2].content, grids[3].content})};
-  packed.pieces.push_back(FileStart().bytes(nameOf(packed.content, conventions), std::ssize(grids)));
+  const auto add = [&](const std::string& bytes) { packed.pieces.emplace_back(bytes.begin(), bytes.end()); };
+  add(FileStart().bytes(nameOf(packed.content, conventions), std::ssize(grids)));
   std::int64_t end = std::ssize(packed.pieces[0]);
   for (PackedGrid& grid : grids) {
     end = placeAt(grid, end);
-    packed.pieces.push_back(std::move(grid.head.bytes));
+    add(grid.head.bytes);
     std::move(grid.leaves.begin(), grid.leaves.end(), std::back_inserter(packed.pieces));
   }
   return packed;
+}
+
+void PackedGas::writeTo(std::ostream& out) const {
+  for (const RawBytes& piece : pieces) out.write(piece.data(), std::ssize(piece));
 }
 
 std::string gasToVdb(const FrameGas& gas, const GasConventions& conventions) {
   const PackedGas packed = packGas(sourceOf(gas), conventions);
   std::string bytes;
   std::size_t size = 0;
-  for (const std::string& piece : packed.pieces) size += piece.size();
+  for (const RawBytes& piece : packed.pieces) size += piece.size();
   bytes.reserve(size);
-  for (const std::string& piece : packed.pieces) bytes += piece;
+  for (const RawBytes& piece : packed.pieces) bytes.append(piece.data(), piece.size());
   return bytes;
 }
 
 FileRecord writeGas(const std::filesystem::path& path, const GasSource& gas) {
   const PackedGas packed = packGas(gas);
-  return writeDurably(path, [&](std::ostream& out) {
-    for (const std::string& piece : packed.pieces) out << piece;
-  });
+  return writeDurably(path, [&](std::ostream& out) { packed.writeTo(out); });
 }
 
 FrameGas gasFromVdb(const std::string& bytes, const std::string& fileName) {

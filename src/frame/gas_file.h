@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/durable_file.h"
+#include "base/raw_bytes.h"
 #include "frame/frame.h"
 #include "grid/brick_source.h"
 
@@ -28,8 +29,9 @@ GasSource sourceOf(const FrameGas& gas);
 
 /// A VDB file in pieces, one after the other, and the hash of what it means.
 struct PackedGas {
-  std::vector<std::string> pieces;
+  std::vector<RawBytes> pieces;
   std::string content;  ///< contentHash of the gas
+  void writeTo(std::ostream& out) const;
 };
 PackedGas packGas(const GasSource& gas, const GasConventions& conventions = {});
 

@@ -16,15 +16,24 @@ namespace {
 constexpr int side = brickSide, samples = side * side * side;
 
 /// Our bricks run along i first, leaves along k; the word of a mask is of one i.
-constexpr int leafPlace(int n) {
-  const int i = n % side, j = n / side % side, k = n / (side * side);
-  return (i * side + j) * side + k;
+template <class T>
+void toLeafOrder(const BrickValues<T>& values, BrickValues<T>& leaf) {
+  for (int k = 0; k < side; ++k)
+    for (int j = 0; j < side; ++j)
+      for (int i = 0; i < side; ++i) leaf[(i * side + j) * side + k] = values[(k * side + j) * side + i];
 }
 
-/// OpenVDB's tree has children of 4096, 128 and 8 samples a side, in each the ones along z first.
-auto treePlace(const Vec3i& corner) {
-  const auto at = [&corner](int bits) { return std::array{corner.x >> bits, corner.y >> bits, corner.z >> bits}; };
-  return std::tuple(at(12), at(7), at(3));
+/// OpenVDB's tree has children of 4096, 128 and 8 samples a side, in each the ones along z first: as one number.
+std::uint64_t treePlace(const Vec3i& corner) {
+  std::uint64_t place = 0;
+  const auto addBits = [&](int first, int count) {
+    for (int axis = 0; axis < 3; ++axis)
+      place = place << count | (static_cast<std::uint64_t>(corner[axis]) >> first & ((1u << count) - 1));
+  };
+  addBits(12, 12);  // grids of up to 2^24 samples a side
+  addBits(7, 5);
+  addBits(3, 4);
+  return place;
 }
 
 /// Leaves that follow each other along z in one child of the tree: what is hashed and packed in one go.
@@ -38,9 +47,10 @@ struct TreeOrder {
   std::vector<Column> columns;
 
   explicit TreeOrder(const std::vector<Vec3i>& corners) : bricks(corners.size()) {
-    for (std::size_t n = 0; n < bricks.size(); ++n) bricks[n] = static_cast<std::uint32_t>(n);
-    std::sort(bricks.begin(), bricks.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return treePlace(corners[a]) < treePlace(corners[b]); });
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> places(corners.size());
+    for (std::size_t n = 0; n < places.size(); ++n) places[n] = {treePlace(corners[n]), static_cast<std::uint32_t>(n)};
+    std::sort(places.begin(), places.end());
+    for (std::size_t n = 0; n < places.size(); ++n) bricks[n] = places[n].second;
     const auto columnOf = [&](std::uint32_t n) { return std::tuple(corners[n].x, corners[n].y, corners[n].z >> 7); };
     for (std::size_t n = 0; n < bricks.size(); ++n) {
       if (n == 0 || columnOf(bricks[n]) != columnOf(bricks[n - 1])) columns.push_back({n, n});
@@ -53,7 +63,7 @@ struct TreeOrder {
 struct PackedColumn {
   std::vector<Vec3i> corners;
   std::vector<LeafMask> masks;
-  std::string bytes;
+  RawBytes bytes;
   std::string content;  // hash of corners and values; empty: no leaves
 };
 
@@ -71,31 +81,40 @@ std::uint64_t gatherBits(const Bytes8& bytes) {
   return bits;
 }
 
+/// 0 where two samples are the same to the bit.
+template <class T>
+std::uint32_t difference(const T& a, const T& b) {
+  using Bits = std::array<std::uint32_t, sizeof(T) / sizeof(std::uint32_t)>;
+  const auto bits = std::bit_cast<Bits>(a), others = std::bit_cast<Bits>(b);
+  std::uint32_t all = 0;
+  for (std::size_t part = 0; part < bits.size(); ++part) all |= bits[part] ^ others[part];
+  return all;
+}
+
+template <class T>
+bool isEmpty(const BrickValues<T>& values, const T& background) {
+  std::uint32_t all = 0;
+  for (int first = 0; first < samples && all == 0; first += 64)
+    for (int n = first; n < first + 64; ++n) all |= difference(values[n], background);
+  return all == 0;
+}
+
 template <class T>
 LeafMask activeMask(const BrickValues<T>& leaf, const T& background) {
-  using Bits = std::array<std::uint32_t, sizeof(T) / sizeof(std::uint32_t)>;
-  const auto wanted = std::bit_cast<Bits>(background);
   LeafMask mask{};
   Bytes8 differs;
   for (int word = 0; word < side; ++word) {
-    for (int n = 0; n < 64; ++n) {
-      const auto bits = std::bit_cast<Bits>(leaf[64 * word + n]);
-      std::uint32_t difference = 0;
-      for (std::size_t part = 0; part < bits.size(); ++part) difference |= bits[part] ^ wanted[part];
-      differs[n] = difference != 0;
-    }
+    for (int n = 0; n < 64; ++n) differs[n] = difference(leaf[64 * word + n], background) != 0;
     mask[word] = gatherBits(differs);
   }
   return mask;
 }
 
-bool isEmpty(const LeafMask& mask) {
-  return std::all_of(mask.begin(), mask.end(), [](std::uint64_t word) { return word == 0; });
-}
-
 /// Moves the active samples of a leaf together; how many.
 template <class T>
 int gatherActive(BrickValues<T>& leaf, const LeafMask& mask) {
+  constexpr auto isFull = [](std::uint64_t word) { return ~word == 0; };
+  if (std::all_of(mask.begin(), mask.end(), isFull)) return samples;
   int count = 0;
   for (int word = 0; word < side; ++word)
     for (std::uint64_t rest = mask[word]; rest != 0; rest &= rest - 1)
@@ -145,9 +164,9 @@ std::string visitColumn(const BrickSource<T>& source, const TreeOrder& order, co
   for (std::size_t n = column.first; n < column.last; ++n) {
     const std::uint32_t brick = order.bricks[n];
     source.read(brick, values);
-    for (int s = 0; s < samples; ++s) leaf[leafPlace(s)] = values[s];
+    if (isEmpty(values, source.background)) continue;
+    toLeafOrder(values, leaf);
     const LeafMask mask = activeMask(leaf, source.background);
-    if (isEmpty(mask)) continue;
     any = true;
     hash.add(&source.corners[brick], sizeof(Vec3i));
     hash.add(&values, sizeof values);
@@ -187,16 +206,15 @@ PackedLeaves packLeaves(const BrickSource<T>& source) {
   blosc_set_splitmode(BLOSC_NEVER_SPLIT);  // a leaf's bytes in one stream: a twelfth of the calls
   const TreeOrder order(source.corners);
   std::vector<PackedColumn> columns = forColumns(order, [&](const Column& column, PackedColumn& packed) {
-    thread_local std::vector<char> room;
-    room.resize(std::max(room.size(), (column.last - column.first) * largestLeaf<T>));
-    char* end = room.data();
+    packed.bytes.resize((column.last - column.first) * largestLeaf<T>);  // what is not needed is never touched
+    char* end = packed.bytes.data();
     packed.content =
         visitColumn(source, order, column, [&](const Vec3i& corner, BrickValues<T>& leaf, const LeafMask& mask) {
           packed.corners.push_back(corner);
           packed.masks.push_back(mask);
           end = putLeaf(end, leaf, mask);
         });
-    packed.bytes.assign(room.data(), end);
+    packed.bytes.resize(end - packed.bytes.data());
   });
   PackedLeaves leaves;
   leaves.content = contentOf(source, columns);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/raw_bytes.h"
 #include "grid/brick_source.h"
 
 namespace brisance {
@@ -20,7 +21,7 @@ struct PackedLeaves {
   std::vector<LeafMask> masks;
   /// The leaves one after the other, in pieces of several: mask, the sign that inactive samples are the background, and
   /// the active samples, packed by Blosc (or as they are where that makes them no smaller).
-  std::vector<std::string> pieces;
+  std::vector<RawBytes> pieces;
   std::string content;  ///< contentHash of the grid
 };
 

@@ -206,12 +206,7 @@ void RunDirectory::add(const std::vector<NewFile>& files) {
   inTurn([&] {
     DurableBatch batch;
     std::map<std::string, ManifestEntry> entries;
-    for (const NewFile& file : files) {
-      const auto write = [&](std::ostream& out) {
-        for (const std::string& piece : file.pieces) out << piece;
-      };
-      entries[file.name] = {batch.add(placeOf(file.name), write), file.content};
-    }
+    for (const NewFile& file : files) entries[file.name] = {batch.add(placeOf(file.name), file.write), file.content};
     batch.finish();
     record(entries);
   });
@@ -247,15 +242,26 @@ std::string RunDirectory::addInput(const fs::path& source) {
   return name;
 }
 
+namespace {
+/// The function is copied with whatever it holds: the bytes are shared.
+NewFile newFile(const std::string& name, std::string bytes, const std::string& content = "") {
+  const auto shared = std::make_shared<const std::string>(std::move(bytes));
+  return {name, [shared](std::ostream& out) { out << *shared; }, content};
+}
+NewFile newFile(const std::string& name, PackedGas gas) {
+  const auto shared = std::make_shared<const PackedGas>(std::move(gas));
+  return {name, [shared](std::ostream& out) { shared->writeTo(out); }, shared->content};
+}
+}  // namespace
+
 std::vector<NewFile> filesOf(const Frame& frame, const GasSource& source) {
   const FrameFileNames names(frame.index);
-  PackedGas gas = packGas(source);
-  std::vector<NewFile> files{{names.gas, std::move(gas.pieces), std::move(gas.content)},
-                             {names.bodies, {bodiesToJson(frame)}, contentHash(frame.bodies)},
-                             {names.particles, {particlesToPly(frame.particles)}, contentHash(frame.particles)},
-                             {names.report, {reportToJson(frame)}, ""}};
+  std::vector<NewFile> files{newFile(names.gas, packGas(source)),
+                             newFile(names.bodies, bodiesToJson(frame), contentHash(frame.bodies)),
+                             newFile(names.particles, particlesToPly(frame.particles), contentHash(frame.particles)),
+                             newFile(names.report, reportToJson(frame))};
   const std::vector<FrameBody> reshaped = reshapedIn(frame);
-  if (!reshaped.empty()) files.push_back({names.shapes, {piecesToGlb(reshaped)}, ""});
+  if (!reshaped.empty()) files.push_back(newFile(names.shapes, piecesToGlb(reshaped)));
   return files;
 }
 

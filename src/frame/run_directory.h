@@ -22,9 +22,9 @@ struct ManifestEntry {
 
 /// A file of a run that is yet to be written.
 struct NewFile {
-  std::string name;                 ///< in the run
-  std::vector<std::string> pieces;  ///< its bytes, one piece after the other
-  std::string content;              ///< as in ManifestEntry
+  std::string name;                          ///< in the run
+  std::function<void(std::ostream&)> write;  ///< holds the bytes
+  std::string content;                       ///< as in ManifestEntry
 };
 
 /// gas, bodies, particles and report of a frame, and the shapes that bodies took in it.

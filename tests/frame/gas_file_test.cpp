@@ -29,6 +29,17 @@ TEST(GasFile, EmptyGasIsAFileToo) {
   EXPECT_EQ(readGas(scratch / "gas.vdb"), gas);
 }
 
+TEST(GasFile, BricksFarApartAreTheSameToo) {
+  const ScratchDirectory scratch;
+  FrameGas gas;
+  gas.density.size = {9000, 9000, 9000};
+  for (const int z : {0, 120, 128, 4096, 8200})
+    for (const int y : {8, 136, 4088, 8192})
+      for (const int x : {0, 128, 4224}) gas.density.bricks.push_back({{x, y, z}, {static_cast<float>(1 + x + y + z)}});
+  writeGas(scratch / "gas.vdb", sourceOf(gas));
+  EXPECT_EQ(readGas(scratch / "gas.vdb"), gas);
+}
+
 TEST(GasFile, EqualGasIsEqualBytesAndOtherGasIsNot) {
   const FrameGas gas = sampleGas();
   FrameGas other = gas;
