@@ -22,6 +22,10 @@ struct Burning {
   double sootPerMass, flameLifetime;  ///< [1], [s]
 };
 
+/// [kg/m3] Less soot or flame, which nobody could see, becomes none: else its traces would spread by a cell with every
+/// step.
+constexpr float leastDensity = 1e-12f;
+
 /// Carries temperature, soot and flame over dt [s], heats and cools the gas, adds what burnt. Returns the balance of
 /// heat [J]; `hottest` becomes the largest temperature [K].
 Balance sweepScalars(FluidState& gas, const FluidSettings& settings, const Burning& burning, double dt,

@@ -37,11 +37,13 @@ void addBurnt(FluidState& gas, const Burning& burning, double dt) {
   parallelFor(0, gas.soot.count() / row, 64, [&](std::int64_t first, std::int64_t last) {
     runWide([&] {
       for (std::int64_t begin = first * row; begin < last * row; begin += row) {
-        if (!anyOther(rates + begin, row, 0) && !anyOther(flames + begin, row, 0)) continue;
+        if (!anyOther(rates + begin, row, 0) && !anyOther(flames + begin, row, 0) && !anyOther(soots + begin, row, 0))
+          continue;
 #pragma GCC ivdep
         for (std::int64_t n = begin; n < begin + row; ++n) {
-          soots[n] += soot * rates[n];
-          flames[n] = flames[n] * kept + burnt * rates[n];
+          const float gathered = soots[n] + soot * rates[n], left = flames[n] * kept + burnt * rates[n];
+          soots[n] = select(std::abs(gathered) < leastDensity, 0, gathered);
+          flames[n] = select(std::abs(left) < leastDensity, 0, left);
         }
       }
     });

@@ -188,7 +188,6 @@ class ScalarSweep {
     return warmth.ofAll();
   }
 
-  /// What is too little to be seen, or to be there at all, is nothing: else it would spread by a cell with every step.
   template <int floats>
   static void keep(const typename NamedVectors<floats>::Type& density, float* to) {
     using V = NamedVectors<floats>;
@@ -254,8 +253,6 @@ class ScalarSweep {
     }
     return sum;
   }
-
-  static constexpr float leastDensity = 1e-12f;  // [kg/m3]
 
   FluidState& gas_;
   const ChangingSpans& spans_;

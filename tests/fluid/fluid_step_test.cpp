@@ -1,5 +1,6 @@
 #include "fluid/fluid_step.h"
 
+#include "fluid/advection.h"
 #include "fluid/cooling.h"
 #include "fluid/fluid_fixture.h"
 #include "fluid/forces.h"
@@ -214,6 +215,26 @@ TEST(Stability, TheFirstBadValueIsNamed) {
   EXPECT_EQ(findNotFinite(gas), "");
   gas.temperature(3, 2, 1) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(findNotFinite(gas), "temperature at cell (3, 2, 1)");
+}
+
+TEST(FluidStep, TooLittleSootAndFlameAreNoneByEveryScheme) {
+  for (const AdvectionScheme& scheme : {AdvectionScheme{DonorCell{}}, AdvectionScheme{DonorCell{0.1}},
+                                        AdvectionScheme{MacCormack{}}, AdvectionScheme{SemiLagrangian{}}}) {
+    FluidSettings s = box({24, 12, 12});
+    s.advection = scheme;
+    s.wind = {1, 0, 0};
+    FluidState gas = gasIn(s);
+    gas.velocity.u.values.assign(gas.velocity.u.values.size(), 1);
+    gas.soot(12, 6, 6) = 1;
+    gas.flame(12, 6, 6) = 1;
+    FluidScratch scratch;
+    for (int step = 0; step < 6; ++step) {
+      stepFluid(gas, s, 1, 0.6 * s.cellSize, scratch, limitsOf(gas));
+      for (const Grid3<float>* field : {&gas.soot, &gas.flame})
+        for (const float density : field->values) ASSERT_TRUE(density == 0 || std::abs(density) >= 1e-12f) << density;
+    }
+    EXPECT_GT(largestMagnitude(gas.soot), 0.01);
+  }
 }
 
 }  // namespace
