@@ -206,7 +206,7 @@ PackedLeaves packLeaves(const BrickSource<T>& source) {
   blosc_set_splitmode(BLOSC_NEVER_SPLIT);  // a leaf's bytes in one stream: a twelfth of the calls
   const TreeOrder order(source.corners);
   std::vector<PackedColumn> columns = forColumns(order, [&](const Column& column, PackedColumn& packed) {
-    packed.bytes.resize((column.last - column.first) * largestLeaf<T>);  // what is not needed is never touched
+    packed.bytes.resize((column.last - column.first) * largestLeaf<T>);
     char* end = packed.bytes.data();
     packed.content =
         visitColumn(source, order, column, [&](const Vec3i& corner, BrickValues<T>& leaf, const LeafMask& mask) {
@@ -215,6 +215,7 @@ PackedLeaves packLeaves(const BrickSource<T>& source) {
           end = putLeaf(end, leaf, mask);
         });
     packed.bytes.resize(end - packed.bytes.data());
+    packed.bytes.shrink_to_fit();
   });
   PackedLeaves leaves;
   leaves.content = contentOf(source, columns);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -25,7 +26,7 @@ constexpr double multigridMemory = 13 * field;  // six vectors and seven entries
 constexpr double gradientMemory = 8 * field;    // four vectors in double precision
 constexpr double movingMemory = 20 * field;     // where moving bodies block gas: what faces and cells are, twice
 constexpr double depositMemory = field + 1;     // among solids: what is inside, and the share of a kernel in gas
-constexpr double writingMemory = 12 * field;    // the frame's packed file and the transforms' room
+constexpr double writingMemory = 11 * field;    // the frame's packed file and the transforms' room
 constexpr double largeField = 32 << 20;         // [bytes] from here on what is freed goes back at once
 constexpr double givenBackMemory = 6 * field;
 constexpr double volumeCellMemory = 32;  // density and colour, and their copy while blurring
@@ -47,6 +48,18 @@ std::int64_t clamped(double bytes) { return static_cast<std::int64_t>(std::min(b
 double countOf(const Vec3i& cells) { return static_cast<double>(cells.x) * cells.y * cells.z; }
 double gigabytes(std::int64_t bytes) { return static_cast<double>(bytes) / 1e9; }
 
+/// What whole pages of 2 MB take beyond the numbers that lie in them, of nine fields of faces and ten of cells.
+double pagesMemory(const Vec3i& cells) {
+  constexpr double page = 2 << 20;
+  const auto beyond = [&](const Vec3i& samples) {
+    const double bytes = countOf(samples) * field;
+    return bytes < page ? 0 : std::ceil(bytes / page) * page - countOf(cells) * field;
+  };
+  return 3 * (beyond({cells.x + 1, cells.y, cells.z}) + beyond({cells.x, cells.y + 1, cells.z}) +
+              beyond({cells.x, cells.y, cells.z + 1})) +
+         10 * beyond(cells);
+}
+
 double gasCellMemory(const SimulationSettings& s) {
   double bytes = stateMemory + solidMemory + writingMemory;
   if (countOf(s.fluid.cells) * field > largeField) bytes -= givenBackMemory;
@@ -63,7 +76,7 @@ double gasCellMemory(const SimulationSettings& s) {
 double simulatingMemory(const Scene& scene, const SceneEstimate& cost) {
   const bool collide = std::holds_alternative<Contacts>(scene.simulation.rigid.collisions);
   return (collide ? static_cast<double>(cost.pieces) * hullBytes : 0) +
-         static_cast<double>(cost.cells) * gasCellMemory(scene.simulation) +
+         static_cast<double>(cost.cells) * gasCellMemory(scene.simulation) + pagesMemory(scene.simulation.fluid.cells) +
          static_cast<double>(cost.particles) * particleMemory;
 }
 
