@@ -216,7 +216,7 @@ Projection projectBy(const ConjugateGradient& s, FluidState& gas, const FluidSet
   return {report, lookAtFlow(gas)};
 }
 
-/// fast_poisson, an iteration of which costs a seventh of a multigrid one (128^3 cells, three solids); where it takes
+/// fast_poisson, an iteration of which costs a tenth of a multigrid one (128^3 cells, three solids); where it takes
 /// so many that multigrid would have been done, multigrid goes on from there. It knows periodic faces not.
 Projection projectBy(const AutomaticSolver& s, FluidState& gas, const FluidSettings& settings, double dt,
                      PressureScratch& scratch) {
