@@ -1,4 +1,4 @@
-// Bytes that are made in place: growing does not fill them first.
+// Numbers and bytes that are made in place: growing does not fill them first.
 #pragma once
 
 #include <memory>
@@ -7,12 +7,12 @@
 
 namespace brisance {
 
-/// Leaves new values as the memory was.
-template <class T>
-struct NoFillAllocator : std::allocator<T> {
+/// Leaves new values as the memory is: clearing what will be written anyway costs as much as a sweep.
+template <class T, template <class> class Allocator = std::allocator>
+struct Unset : Allocator<T> {
   template <class U>
   struct rebind {
-    using other = NoFillAllocator<U>;
+    using other = Unset<U, Allocator>;
   };
   template <class U>
   void construct(U* place) {
@@ -24,6 +24,6 @@ struct NoFillAllocator : std::allocator<T> {
   }
 };
 
-using RawBytes = std::vector<char, NoFillAllocator<char>>;
+using RawBytes = std::vector<char, Unset<char>>;
 
 }  // namespace brisance

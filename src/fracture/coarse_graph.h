@@ -6,7 +6,7 @@
 
 namespace brisance {
 
-using Amounts = std::vector<float, Unset<float>>;
+using Amounts = std::vector<float, Unset<float, tbb::scalable_allocator>>;
 
 /// One level: each node lies in one piece, and a piece's nodes have consecutive numbers where the level is made.
 /// Single precision: weights and sizes are relative to their means, and only compared.

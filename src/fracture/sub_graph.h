@@ -3,32 +3,12 @@
 
 #include <tbb/scalable_allocator.h>
 
-#include <memory>
-#include <new>
-#include <type_traits>
-#include <utility>
-
+#include "base/raw_bytes.h"
 #include "fracture/fracture_graph.h"
 
 namespace brisance {
 
-/// Leaves new elements as the memory is: clearing what will be written anyway costs as much as a sweep.
-template <class T>
-struct Unset : tbb::scalable_allocator<T> {
-  template <class U>
-  struct rebind {
-    using other = Unset<U>;
-  };
-  template <class U>
-  void construct(U* place) {
-    ::new (static_cast<void*>(place)) U;
-  }
-  template <class U, class... Arguments>
-  void construct(U* place, Arguments&&... arguments) {
-    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
-  }
-};
-using Numbers = std::vector<std::uint32_t, Unset<std::uint32_t>>;
+using Numbers = std::vector<std::uint32_t, Unset<std::uint32_t, tbb::scalable_allocator>>;
 
 /// A connected part of a graph with numbers of its own. Made by `orderedFromAnEnd`, the numbers are a breadth-first
 /// order from one end of the part, so that every prefix of them is connected.

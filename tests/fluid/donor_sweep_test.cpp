@@ -100,15 +100,21 @@ Balance stepOneAfterTheOther(FluidState& gas, const FluidSettings& s) {
   return heat;
 }
 
+/// Sweeps the gas, whose hottest cell must be found, and returns the balance.
+Balance sweepOnce(FluidState& gas, const FluidSettings& s) {
+  SweepScratch scratch;
+  double hottest = 0;
+  const Balance heat = sweepScalars(gas, s, {sootPerMass, s.flameLifetime}, dt, scratch, hottest);
+  EXPECT_EQ(hottest, largestMagnitude(gas.temperature));
+  sweepVelocity(gas, s, dt, scratch);
+  return heat;
+}
+
 TEST(DonorSweep, DoesWhatTheStepsDoOneAfterTheOtherInEveryKindOfBox) {
   for (const FluidSettings& s : allKindsOfBoxes())
     for (const bool solids : {false, true}) {
       FluidState swept = roughGas(s, solids), stepped = swept;
-      SweepScratch sweep;
-      double hottest = 0;
-      const Balance heat = sweepScalars(swept, s, {sootPerMass, s.flameLifetime}, dt, sweep, hottest);
-      EXPECT_EQ(hottest, largestMagnitude(swept.temperature));
-      sweepVelocity(swept, s, dt, sweep);
+      const Balance heat = sweepOnce(swept, s);
       const Balance expected = stepOneAfterTheOther(stepped, s);
       expectSameFields(swept, stepped, 2e-6);
       EXPECT_NEAR(heat.in / expected.in, 1, 1e-5);
@@ -145,11 +151,7 @@ TEST(DonorSweep, LeavesOutNothingOfABallOfGasWhereverItIs) {
       s.cellSize = 1.0 / 21;
       for (const Vec3i& middle : {Vec3i{0, 0, 0}, {width - 1, 8, 34}, {width / 2, 4, 15}, {18 % width, 7, 16}}) {
         FluidState swept = ballOfGas(s, middle), stepped = swept;
-        SweepScratch sweep;
-        double hottest = 0;
-        const Balance heat = sweepScalars(swept, s, {sootPerMass, s.flameLifetime}, dt, sweep, hottest);
-        EXPECT_EQ(hottest, largestMagnitude(swept.temperature));
-        sweepVelocity(swept, s, dt, sweep);
+        const Balance heat = sweepOnce(swept, s);
         const Balance expected = stepOneAfterTheOther(stepped, s);
         expectSameFields(swept, stepped, 2e-6);
         const double heats = std::abs(expected.in) + std::abs(expected.gained);
