@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "base/check.h"
 #include "base/stream_copy.h"
@@ -31,19 +32,17 @@ struct CellLines {
   mass = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
 }
 
-/// Of four cells of sixteen, from the n-th on: three numbers each, side by side.
-template <int n>
-[[gnu::always_inline]] inline void meanColours(const Vector& perMass, Vector& cells) {
-  cells *= __builtin_shufflevector(perMass, perMass, n, n, n, n, n + 1, n + 1, n + 1, n + 1, n + 2, n + 2, n + 2, n + 2,
-                                   n + 3, n + 3, n + 3, n + 3);
-  cells = __builtin_shufflevector(cells, cells, 1, 2, 3, 5, 6, 7, 9, 10, 11, 13, 14, 15, -1, -1, -1, -1);
-}
+/// Of the numbers of a row's colours, the cell, and where it lies among the sums.
+constexpr int cellOf(int number) { return number / 3; }
+constexpr int placeOf(int number) { return cellOf(number) * sumsPerCell + 1 + number % 3; }
 
-/// Four times twelve numbers.
-[[gnu::always_inline]] inline void closeUp(const Vector (&cells)[4], Vector (&lines)[3]) {
-  lines[0] = __builtin_shufflevector(cells[0], cells[1], 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19);
-  lines[1] = __builtin_shufflevector(cells[1], cells[2], 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 20, 21, 22, 23);
-  lines[2] = __builtin_shufflevector(cells[2], cells[3], 8, 9, 10, 11, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27);
+/// Line `n` of the three that the cells' colours fill, each number times that of its cell. Four cells lie in a vector,
+/// their colours in lines one after the other: line n starts in the n-th of the vectors and ends in the next.
+template <int n, int... number>
+[[gnu::always_inline]] inline void meanColours(const Vector (&cells)[4], const Vector& perMass, Vector& line,
+                                               std::integer_sequence<int, number...>) {
+  line = __builtin_shufflevector(cells[n], cells[n + 1], (placeOf(cellsPerLine * n + number) - cellsPerLine * n)...);
+  line *= __builtin_shufflevector(perMass, perMass, cellOf(cellsPerLine * n + number)...);
 }
 
 [[gnu::target("avx512f")]] inline void finishLine(const float* sums, float perVolume, CellLines& lines) {
@@ -52,11 +51,10 @@ template <int n>
   firstOfFours(cells, mass);
   lines.density = mass * perVolume;
   const Vector none{}, perMass = mass > none ? (none + 1) / mass : none;
-  meanColours<0>(perMass, cells[0]);
-  meanColours<4>(perMass, cells[1]);
-  meanColours<8>(perMass, cells[2]);
-  meanColours<12>(perMass, cells[3]);
-  closeUp(cells, lines.colour);
+  constexpr auto numbers = std::make_integer_sequence<int, cellsPerLine>();
+  meanColours<0>(cells, perMass, lines.colour[0], numbers);
+  meanColours<1>(cells, perMass, lines.colour[1], numbers);
+  meanColours<2>(cells, perMass, lines.colour[2], numbers);
 }
 
 /// The first `count` cells of a line, by the way through the caches, where rows of cells meet in a line.

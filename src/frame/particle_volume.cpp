@@ -72,11 +72,12 @@ struct DrawnPoints {
         outside[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= last)};
       }
     }
-    const int rowsPerLayer = settings.size.y, cellsPerRow = settings.size.x;
+    const BandedRows numbers(settings.size.y, settings.size.z);
+    const int cellsPerRow = settings.size.x;
     int lowest = cellsPerRow, highest = -1;
 #pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      const std::int32_t x = share.lower[0][n], row = share.rowOf(n, rowsPerLayer);
+      const std::int32_t x = share.lower[0][n], row = share.rowOf(n, numbers);
       rows[n] = outside[n] ? -1 : row;
       lowest = std::min(lowest, outside[n] ? cellsPerRow : x);
       highest = std::max(highest, outside[n] ? -1 : x);
@@ -86,8 +87,8 @@ struct DrawnPoints {
 };
 
 void sortDrawn(const DrawnPoints& drawn, SplatScratch& scratch) {
-  const std::int64_t count = static_cast<std::int64_t>(drawn.particles.position.size()),
-                     rows = static_cast<std::int64_t>(drawn.settings.size.y) * drawn.settings.size.z;
+  const std::int64_t count = std::ssize(drawn.particles.position),
+                     rows = BandedRows(drawn.settings.size.y, drawn.settings.size.z).count();
   scratch.reachAlongX.assign(static_cast<std::size_t>((count + sortRun - 1) / sortRun), {});
   sortIntoBins(
       count, rows,
@@ -110,9 +111,10 @@ struct PointBounds {
 PointBounds boundsOf(const SplatScratch& scratch, const Vec3i& volumeSize) {
   CellSpan x, y, z;
   for (const CellSpan& reach : scratch.reachAlongX) x.include(reach);
+  const BandedRows rows(volumeSize.y, volumeSize.z);
   for (int k = 0; k < volumeSize.z; ++k)
     for (int j = 0; j < volumeSize.y; ++j) {
-      if (scratch.points.bin(j + static_cast<std::int64_t>(volumeSize.y) * k).empty()) continue;
+      if (scratch.points.bin(rows(j, k)).empty()) continue;
       y.include({j, j + 1});
       z.include({k, k + 1});
     }

@@ -14,7 +14,7 @@ namespace {
 using blur::rowsAtOnce, blur::Weights, blur::widestFloats;
 
 constexpr int block = blur::pieceAlong;  // what sums along a row are rounded to
-constexpr int pieceNumbers = 256;        // of a row, finished at once
+constexpr int pieceNumbers = 640;        // of a row, finished at once
 
 constexpr int roundUp(int count, int unit) { return (count + unit - 1) / unit * unit; }
 constexpr int roundDown(int count, int unit) { return count / unit * unit; }

@@ -55,7 +55,11 @@ inline CellSpan addPoints(std::span<const SplatPoint<channels>> points, const fl
 template <int channels>
 LayerSplat<channels>::LayerSplat(const Binned<SplatPoint<channels>>& points, std::array<std::vector<float>, 3> gain,
                                  const Vec3i& firstCell)
-    : points_(points), gain_(std::move(gain)), firstCell_(firstCell), rowsPerLayer_(static_cast<int>(gain_[1].size())) {
+    : points_(points),
+      gain_(std::move(gain)),
+      firstCell_(firstCell),
+      rowsPerLayer_(static_cast<int>(gain_[1].size())),
+      rows_(rowsPerLayer_, static_cast<int>(gain_[2].size())) {
   for (std::vector<float>& cells : gain_) cells.push_back(0);
 }
 
@@ -70,7 +74,7 @@ void LayerSplat<channels>::operator()(const CellSpan& rows, int k, LayerRows& ne
 template <int channels>
 void LayerSplat<channels>::addRow(int j, int k, LayerRows& near, LayerRows& far) const {
   const int y = j + firstCell_.y, z = k + firstCell_.z;
-  const auto points = points_.bin(y + static_cast<std::int64_t>(rowsPerLayer_) * z);
+  const auto points = points_.bin(rows_(y, z));
   if (points.empty()) return;
   const std::int64_t shift = static_cast<std::int64_t>(channels) * firstCell_.x;
   const RowsAround around{{near[j] - shift, near[j + 1] - shift, far[j] - shift, far[j + 1] - shift},

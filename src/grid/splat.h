@@ -18,6 +18,19 @@ struct AxisShare {
 };
 using CellShares = std::array<AxisShare, 3>;
 
+/// Rows of cells along x by number: bands of neighbouring rows, one layer of a band after the other. So what lies in a
+/// few neighbouring rows is read from one layer to the next as it lies in memory.
+class BandedRows {
+ public:
+  BandedRows(int rowsPerLayer, int layers) : layers_(layers), bands_((rowsPerLayer + inBand - 1) / inBand) {}
+  std::int64_t count() const { return std::int64_t{inBand} * bands_ * layers_; }
+  std::int32_t operator()(int j, int k) const { return (j - j % inBand) * layers_ + inBand * k + j % inBand; }
+
+ private:
+  static constexpr int inBand = 4;  // of the narrowest strips of rows that a blur goes over
+  int layers_, bands_;
+};
+
 /// The same for a run of points, one array per number, so that loops over them become loops over vectors.
 struct ShareRun {
   std::int32_t lower[3][sortRun];
@@ -45,8 +58,8 @@ struct ShareRun {
       fraction[axis][n] = share[axis].fraction;
     }
   }
-  /// Number of the row of the n-th point's lower neighbours along y and z.
-  std::int32_t rowOf(int n, int rowsPerLayer) const { return lower[1][n] + rowsPerLayer * lower[2][n]; }
+  /// Of the n-th point's lower neighbours along y and z.
+  std::int32_t rowOf(int n, const BandedRows& rows) const { return rows(lower[1][n], lower[2][n]); }
   CellShares operator[](int n) const {
     return {{{lower[0][n], fraction[0][n]}, {lower[1][n], fraction[1][n]}, {lower[2][n], fraction[2][n]}}};
   }
@@ -64,7 +77,7 @@ struct SplatPoint {
       : fraction{share[0].fraction, share[1].fraction, share[2].fraction}, lower(share[0].lower), amount(amount_) {}
 };
 
-/// Adds points, sorted by their rows, to the cells, layer after layer. The sums are made in the points' order.
+/// Adds points, sorted by their rows' numbers, to the cells, layer after layer. The sums are made in the points' order.
 template <int channels>
 class LayerSplat {
  public:
@@ -84,6 +97,7 @@ class LayerSplat {
   std::array<std::vector<float>, 3> gain_;  // and 0 for a cell beyond
   Vec3i firstCell_;
   int rowsPerLayer_;
+  BandedRows rows_;
 };
 
 }  // namespace brisance

@@ -74,8 +74,9 @@ class DepositPoints {
   void make(const Vec3d* places, const double* burnt, int count, std::int32_t* rows, SplatPoint<1>* points) const {
     ShareRun share;
     setShares(places, count, share);
+    const BandedRows numbers(solid_.size.y, solid_.size.z);
     runWide([&] {
-      for (int n = 0; n < count; ++n) rows[n] = burnt[n] > 0 ? share.rowOf(n, solid_.size.y) : -1;
+      for (int n = 0; n < count; ++n) rows[n] = burnt[n] > 0 ? share.rowOf(n, numbers) : -1;
     });
     for (int n = 0; n < count; ++n) points[n] = {share[n], {static_cast<float>(burnt[n])}};
   }
@@ -130,7 +131,7 @@ void sortBurnt(const ParticleSet& particles, const std::vector<double>& burnt, c
   const DepositPoints points(solid, anySolids);
   const Vec3d* places = particles.position.data();
   sortIntoBins(
-      static_cast<std::int64_t>(burnt.size()), static_cast<std::int64_t>(solid.size.y) * solid.size.z,
+      std::ssize(burnt), BandedRows(solid.size.y, solid.size.z).count(),
       [&](std::int64_t first, std::int64_t end, std::int32_t* rows, SplatPoint<1>* made) {
         points.make(places + first, burnt.data() + first, static_cast<int>(end - first), rows, made);
       },
