@@ -1,6 +1,7 @@
 #include "frame/particle_volume.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 #include "base/stream_copy.h"
@@ -47,7 +48,7 @@ struct DrawnPoints {
     CellSpan reached;
     runWide([&] {
       setShares(first, count, share);
-      reached = findRows(first, count, mass, share, rows);
+      reached = findRows(count, mass, share, rows);
     });
     for (int n = 0; n < count; ++n) {
       const Vec3f amount = colour[n] * mass[n];
@@ -60,27 +61,19 @@ struct DrawnPoints {
   void setShares(std::int64_t first, int count, ShareRun& share) const {
     for (int axis = 0; axis < 3; ++axis) share.set(axis, count, settings.size[axis], placeAlong(axis, first));
   }
-  CellSpan findRows(std::int64_t first, int count, const float* mass, const ShareRun& share, std::int32_t* rows) const {
-    std::int32_t outside[sortRun];
-    for (int n = 0; n < count; ++n) outside[n] = !(mass[n] > 0);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto place = placeAlong(axis, first);
-      const double last = settings.size[axis] - .5;
-#pragma GCC ivdep
-      for (int n = 0; n < count; ++n) {
-        const double at = place(n);
-        outside[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= last)};
-      }
-    }
+  CellSpan findRows(int count, const float* mass, const ShareRun& share, std::int32_t* rows) const {
     const BandedRows numbers(settings.size.y, settings.size.z);
-    const int cellsPerRow = settings.size.x;
-    int lowest = cellsPerRow, highest = -1;
 #pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      const std::int32_t x = share.lower[0][n], row = share.rowOf(n, numbers);
-      rows[n] = outside[n] ? -1 : row;
-      lowest = std::min(lowest, outside[n] ? cellsPerRow : x);
-      highest = std::max(highest, outside[n] ? -1 : x);
+      const std::int32_t hidden = -std::int32_t{!(mass[n] > 0)} | share.outside[n];
+      rows[n] = hidden ? -1 : share.rowOf(n, numbers);
+    }
+    constexpr std::int32_t largest = std::numeric_limits<std::int32_t>::max();
+    std::int32_t lowest = largest, highest = -1;
+    for (int n = 0; n < count; ++n) {
+      const std::int32_t x = share.lower[0][n], hidden = rows[n] >> 31;
+      lowest = std::min(lowest, x | (hidden & largest));
+      highest = std::max(highest, x | hidden);
     }
     return {lowest, highest + 1};
   }

@@ -24,10 +24,10 @@ class BandedRows {
  public:
   BandedRows(int rowsPerLayer, int layers) : layers_(layers), bands_((rowsPerLayer + inBand - 1) / inBand) {}
   std::int64_t count() const { return std::int64_t{inBand} * bands_ * layers_; }
-  std::int32_t operator()(int j, int k) const { return (j - j % inBand) * layers_ + inBand * k + j % inBand; }
+  std::int32_t operator()(int j, int k) const { return (j & -inBand) * layers_ + inBand * k + (j & (inBand - 1)); }
 
  private:
-  static constexpr int inBand = 4;  // of the narrowest strips of rows that a blur goes over
+  static constexpr int inBand = 4;  // a power of two, of the narrowest strips of rows that a blur goes over
   int layers_, bands_;
 };
 
@@ -35,9 +35,10 @@ class BandedRows {
 struct ShareRun {
   std::int32_t lower[3][sortRun];
   float fraction[3][sortRun];
+  std::int32_t outside[sortRun] = {};  ///< not 0: beyond the cells
 
   /// place(n) of points n = 0 .. count - 1 in cells along an axis, 0 being the first cell's centre; all belongs to the
-  /// outermost cell beyond its centre.
+  /// outermost cell beyond its centre. Sets outside[n] where the place is beyond the outermost cell's outer face.
   template <class Place>
   void set(int axis, int count, int cells, const Place& place) {
     const double lastCentre = cells - 1.0;
@@ -50,6 +51,7 @@ struct ShareRun {
       const std::int32_t below = static_cast<std::int32_t>(inside);
       lowers[n] = below < lastLower ? below : lastLower;
       fractions[n] = static_cast<float>(inside - lowers[n]);
+      outside[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= lastCentre + .5)};
     }
   }
   void set(int n, const CellShares& share) {
