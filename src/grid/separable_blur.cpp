@@ -39,7 +39,11 @@ class RowFilter {
   explicit RowFilter(const BlurTask& task)
       : radius_(task.filter.radius()), channels_(task.channels), rows_(2 * radius_ + rowsAtOnce) {
     CHECK(channels_ == 1 || channels_ == 4, "channels {}", channels_);
-    for (int t = 0; t <= radius_; ++t) weights_.push_back(task.filter(t));
+    const float centre = task.filter(0);
+    for (int t = 0; t <= radius_; ++t) {
+      relative_.push_back(task.filter(t) / centre);
+      completing_.push_back(task.filter(t) * centre * centre);
+    }
   }
 
   /// For sums of four neighbouring rows: row(t) gives that at a distance of -radius .. radius + 3 from the first.
@@ -47,63 +51,71 @@ class RowFilter {
   void useRows(const Row& row) {
     for (int t = -radius_; t < radius_ + rowsAtOnce; ++t) rows_[t + radius_] = row(t);
   }
-  /// Across the rows.
+  /// Across rows that were filtered both ways.
   void sumRows(const CellSpan& cells, const Rows& sums) const {
     const NumberSpan span(cells, channels_);
-    forRadius([&](const auto& weights) {
+    withFilter<false>(completing_, [&]<int channels>(const auto& filter) {
       runWithVectors([&]<int floats>() {
-        blur::sumNeighbours<floats, false>(rows_.data() + radius_, weights, span.first, span.end, sums.data());
+        blur::sumNeighbours<floats, false>(rows_.data() + radius_, filter, span.first, span.end, sums.data());
       });
     });
   }
-  /// Across the rows, of which `filled` cells are not zero, and along them. The first four of the rows become zero.
+  /// Across the rows, of which `filled` cells are not zero, and along them, but for a factor that sumRows() makes up
+  /// for: the weight at a distance of 0 is one, which saves products. The first four of the rows become zero.
   /// linesFor(filled) gives lines for what is in between.
   template <class Lines>
   void sumBothWays(const CellSpan& filled, const CellSpan& cells, const Rows& sums, const Lines& linesFor) const {
-    forRadius([&](const auto& weights) {
-      runWithVectors([&]<int floats>() {
-        if (channels_ == 4)
-          sumBothWays<floats, 4>(weights, filled, cells, sums, linesFor);
-        else
-          sumBothWays<floats, 1>(weights, filled, cells, sums, linesFor);
-      });
+    withFilter<true>(relative_, [&]<int channels>(const auto& filter) {
+      runWithVectors([&]<int floats>() { sumBothWays<floats, channels>(filter, filled, cells, sums, linesFor); });
     });
   }
 
  private:
-  template <int floats, int channels, int fixedRadius, class Lines>
-  void sumBothWays(const Weights<fixedRadius>& weights, const CellSpan& filled, const CellSpan& cells, const Rows& sums,
+  template <int floats, int channels, class Filter, class Lines>
+  void sumBothWays(const Filter& filter, const CellSpan& filled, const CellSpan& cells, const Rows& sums,
                    const Lines& linesFor) const {
     const NumberSpan span(cells, channels), before(filled, channels);
     float* const* rows = rows_.data() + radius_;
-    if constexpr (blur::shiftsVectors<floats, fixedRadius>) {
-      blur::sumBothWaysShifted<channels>(rows, weights, span.first, span.end, sums.data());
+    if constexpr (blur::shiftsVectors<floats, Filter::fixedRadius>) {
+      blur::sumBothWaysShifted<channels>(rows, filter, span.first, span.end, sums.data());
     } else {
       const Rows lines = linesFor(filled);
-      blur::sumNeighbours<floats, true>(rows, weights, before.first, before.end, lines.data());
+      blur::sumNeighbours<floats, true>(rows, filter, before.first, before.end, lines.data());
       for (int n = 0; n < rowsAtOnce; ++n)
-        blur::sumAlong<floats, channels>(lines[n], weights, span.first, span.end, sums[n]);
+        blur::sumAlong<floats, channels>(lines[n], filter, span.first, span.end, sums[n]);
     }
   }
-  template <class Visit>
-  void forRadius(const Visit& visit) const {
-    const float* weights = weights_.data();
+  /// Calls visit<channels>(filter) with what the compiler knows of them.
+  template <bool centreIsOne, class Visit>
+  void withFilter(const std::vector<float>& weights, const Visit& visit) const {
+    if (channels_ == 4)
+      withRadius<4, centreIsOne>(weights.data(), visit);
+    else
+      withRadius<1, centreIsOne>(weights.data(), visit);
+  }
+  template <int channels, bool centreIsOne, class Visit>
+  void withRadius(const float* weights, const Visit& visit) const {
+    constexpr bool fused = channels == 4;  // a picture's
+    const auto withFixed = [&]<int fixedRadius>() {
+      visit.template operator()<channels>(Weights<blur::Sums{fixedRadius, centreIsOne, fused}>{weights, radius_});
+    };
     switch (radius_) {
       case 1:
-        return visit(Weights<1>{weights, radius_});
+        return withFixed.template operator()<1>();
       case 2:
-        return visit(Weights<2>{weights, radius_});
+        return withFixed.template operator()<2>();
       case 3:
-        return visit(Weights<3>{weights, radius_});
+        return withFixed.template operator()<3>();
       case 4:
-        return visit(Weights<4>{weights, radius_});
+        return withFixed.template operator()<4>();
       default:
-        return visit(Weights<0>{weights, radius_});
+        return withFixed.template operator()<0>();
     }
   }
 
   int radius_, channels_;
-  std::vector<float> weights_;
+  std::vector<float> relative_;    // weights over that at a distance of 0
+  std::vector<float> completing_;  // times the square of that
   std::vector<float*> rows_;
 };
 

@@ -15,7 +15,7 @@ namespace brisance {
 /// between fits a cache.
 struct BlurTask {
   Vec3i size;
-  int channels = 1;
+  int channels = 1;  ///< 1, or a picture's 4, of which the bits may depend on the processor's vectors
   SymmetricFilter filter;
   /// Adds to the given rows, or those of them that the field has, of layer k (near) what completes them, and if it
   /// likes to those of layer k + 1 (far). Called for k = 0, 1, ... in turn. A row more on either side is there to be
