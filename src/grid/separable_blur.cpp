@@ -167,7 +167,8 @@ class PieceRows {
   }
 
  private:
-  int length() const { return before_ + pieceNumbers + widestFloats; }
+  /// With room to read whole vectors, or as many cells as come before, where a piece ends.
+  int length() const { return before_ + pieceNumbers + std::max(before_, widestFloats); }
 
   int before_;
   AlignedVector<float> values_;

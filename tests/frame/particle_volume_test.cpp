@@ -263,6 +263,24 @@ TEST(ParticleVolume, HasTheSameBitsForAnyNumberOfThreadsAndNearlyForAnyVectors) 
   forceVectorPath(before);
 }
 
+TEST(ParticleVolume, RowsOfAnyLengthHoldAll) {
+  auto settings = smallVolume();
+  settings.filterSize = 5;
+  const VectorPath before = vectorPath();
+  for (const int cells : {2, 15, 17, 63, 159, 161, 175, 320}) {  // around lines of memory, and pieces of rows
+    settings.size = {cells, 13, 9};
+    const auto particles = spreadParticles(20 * cells, settings, 11);
+    forceVectorPath(VectorPath::plain);
+    const auto plain = splatParticles(particles, settings, equalMass, mixedColour);
+    ASSERT_EQ(plain.density.size, settings.size);
+    forceVectorPath(before);
+    const auto volume = splatParticles(particles, settings, equalMass, mixedColour);
+    EXPECT_LT(difference(volume.density, plain.density), rounding) << cells;
+    EXPECT_LT(difference(volume.colour, plain.colour), 2 * rounding) << cells;
+    EXPECT_NEAR(massOf(volume), 20 * cells * double(particleMass), cells * double(particleMass) * 20 * rounding);
+  }
+}
+
 TEST(ParticleVolume, TwoCloudsFarApartLeaveAllBetweenThemEmpty) {
   auto settings = smallVolume();
   settings.size = {150, 70, 70};
