@@ -35,8 +35,8 @@ float weightOf(const SolidLattice& lattice, int axis, std::int64_t index) {
 
 bool isBoxWall(const FluidSettings& settings, int axis, const Vec3i& face) {
   const auto isWall = [](FaceKind kind) { return kind == FaceKind::noSlip || kind == FaceKind::freeSlip; };
-  return (face[axis] == 0 && isWall(settings.faces[2 * axis])) ||
-         (face[axis] == settings.cells[axis] && isWall(settings.faces[2 * axis + 1]));
+  return (face[axis] == 0 && isWall(settings.faces[lowerFaceOf(axis)])) ||
+         (face[axis] == settings.cells[axis] && isWall(settings.faces[upperFaceOf(axis)]));
 }
 
 /// Shares of the faces that bodies cover or cross.

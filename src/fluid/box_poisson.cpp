@@ -42,7 +42,7 @@ BoxPoisson::BoxPoisson(const Vec3i& cells, const Faces& faces)
   std::copy(alongX.begin(), alongX.end(), eigenvalueX_.begin());
   singular_ = true;
   for (int axis = 0; axis < 3; ++axis)
-    singular_ = singular_ && hasConstantMode(axisEnds(faces[2 * axis], faces[2 * axis + 1]));
+    singular_ = singular_ && hasConstantMode(axisEnds(faces[lowerFaceOf(axis)], faces[upperFaceOf(axis)]));
 }
 
 /// Modes of x and y of one plane, in the processor's own cache.

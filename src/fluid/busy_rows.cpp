@@ -34,7 +34,7 @@ void BusyRows::widen(int rows, const Faces& faces) {
   to = from;
   const auto spread = [&](int axis, int row, int j, int k) {
     const int size = cells_[axis];
-    if (faces[2 * axis] == FaceKind::periodic) row = (row + size) % size;
+    if (isPeriodic(faces, axis)) row = (row + size) % size;
     if (row >= 0 && row < size) to[axis == 1 ? index(row, k) : index(j, row)] = 1;
   };
   for (int k = 0; k < cells_.z; ++k)

@@ -36,7 +36,7 @@ std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 void ChangingSpans::find(const FluidState& gas, const FluidSettings& settings) {
   cells_ = gas.temperature.size;
-  for (int axis = 0; axis < 3; ++axis) around_[axis] = settings.faces[2 * axis] == FaceKind::periodic;
+  for (int axis = 0; axis < 3; ++axis) around_[axis] = isPeriodic(settings.faces, axis);
   differing_.resize(static_cast<std::size_t>(cells_.y) * cells_.z);
   fed_.resize(differing_.size());
   const std::uint32_t ambient = bits(static_cast<float>(settings.ambientTemperature));

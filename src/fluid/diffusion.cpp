@@ -173,7 +173,7 @@ void diffuseVelocity(FluidState& gas, const FluidSettings& settings, double dt) 
   for (int component = 0; component < 3; ++component)
     for (int axis = 0; axis < 3; ++axis) {
       Grid3<float>& speed = gas.velocity.component(component);
-      const bool periodic = settings.faces[2 * axis] == FaceKind::periodic;
+      const bool periodic = isPeriodic(settings.faces, axis);
       const int samples = speed.size[axis] - (periodic && axis == component ? 1 : 0);
       solveLines({speed, gas.solid.openShare.component(component), false, axis, coupling,
                   speedBeyond(settings, 2 * axis, component), speedBeyond(settings, 2 * axis + 1, component), samples,
@@ -185,7 +185,7 @@ void conduct(FluidState& gas, const FluidSettings& settings, double dt) {
   const double coupling = settings.conductivity * dt / (settings.cellSize * settings.cellSize);
   for (int axis = 0; axis < 3; ++axis)
     solveLines({gas.temperature, gas.solid.openShare.component(axis), true, axis, coupling, LineEnd{}, LineEnd{},
-                gas.temperature.size[axis], settings.faces[2 * axis] == FaceKind::periodic});
+                gas.temperature.size[axis], isPeriodic(settings.faces, axis)});
 }
 
 }  // namespace brisance

@@ -63,6 +63,10 @@ using PressureSolver = std::variant<AutomaticSolver, FastPoisson, MultigridSolve
 enum class FaceKind { open, noSlip, freeSlip, periodic };
 /// Order of faces everywhere: x lower, x upper, y lower, y upper, z lower, z upper.
 using Faces = std::array<FaceKind, 6>;
+/// Numbers of the two faces across an axis.
+constexpr std::size_t lowerFaceOf(int axis) { return std::size_t{2} * axis; }
+constexpr std::size_t upperFaceOf(int axis) { return lowerFaceOf(axis) + 1; }
+constexpr bool isPeriodic(const Faces& faces, int axis) { return faces[lowerFaceOf(axis)] == FaceKind::periodic; }
 
 /// Keeps the gas of a cylinder turning about its axis like a solid, as a spoon keeps water (thesis Figure 5.1).
 struct Stirring {

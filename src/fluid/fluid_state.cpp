@@ -21,7 +21,7 @@ void stir(FluidState& gas, const Vec3d& wind, double deviation, std::uint64_t se
 /// The two faces of a periodic box at which an axis begins again are one.
 void joinPeriodicFaces(MacVelocity& velocity, const Faces& faces) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (faces[2 * axis] != FaceKind::periodic) continue;
+    if (!isPeriodic(faces, axis)) continue;
     Grid3<float>& speed = velocity.component(axis);
     for (int k = 0; k < speed.size.z; ++k)
       for (int j = 0; j < speed.size.y; ++j)

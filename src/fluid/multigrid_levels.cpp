@@ -112,7 +112,7 @@ std::vector<MultigridLevel> makeLevels(const SolidStamp& solid, const Faces& fac
     const Vec3i n = level.x.layout.cells;
     if (std::max({n.x, n.y, n.z}) <= coarsestAxis) return levels;
     for (int axis = 0; axis < 3; ++axis)
-      level.coarser[axis] = interpolationAlong(n[axis], faces[2 * axis], faces[2 * axis + 1]);
+      level.coarser[axis] = interpolationAlong(n[axis], faces[lowerFaceOf(axis)], faces[upperFaceOf(axis)]);
     levels.push_back(coarserLevel(level));
   }
 }

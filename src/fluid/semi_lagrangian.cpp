@@ -30,9 +30,9 @@ AxisRange rangeOf(const PaddedGrid& grid, const SampleGrid& samples, int axis) {
   const int size = grid.values.size[axis];
   const auto last = static_cast<float>(size - 1);
   const bool across = axis == samples.axis;
-  if (samples.faces[2 * axis] == FaceKind::periodic) return {0, last, size - (across ? 3 : 2)};
+  if (isPeriodic(samples.faces, axis)) return {0, last, size - (across ? 3 : 2)};
   const auto margin = [&](FaceKind kind) { return kind == FaceKind::open ? 0.0f : across ? 1.0f : 0.5f; };
-  return {margin(samples.faces[2 * axis]), last - margin(samples.faces[2 * axis + 1]), 0};
+  return {margin(samples.faces[lowerFaceOf(axis)]), last - margin(samples.faces[upperFaceOf(axis)]), 0};
 }
 
 /// Trilinear values of a padded grid at the places of a block.
@@ -180,7 +180,7 @@ void forBlocks(const Vec3i& size, const Tool& tool, const Work& work) {
 class PathReader {
  public:
   PathReader(const FlowPaths& paths, const SampleGrid& samples) : paths_(paths), axis_(samples.axis) {
-    if (axis_ != SampleGrid::cells) periodic_ = samples.faces[2 * axis_] == FaceKind::periodic;
+    if (axis_ != SampleGrid::cells) periodic_ = isPeriodic(samples.faces, axis_);
   }
   void read(Block& block) const {
     for (int c = 0; c < 3; ++c) {

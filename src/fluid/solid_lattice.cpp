@@ -125,7 +125,8 @@ class RowEvaluation {
   }
 
   bool isBoxWall(int axis, const Vec3i& face) const {
-    return (face[axis] == 0 && isWall(faces_[2 * axis])) || (face[axis] == n_[axis] && isWall(faces_[2 * axis + 1]));
+    return (face[axis] == 0 && isWall(faces_[lowerFaceOf(axis)])) ||
+           (face[axis] == n_[axis] && isWall(faces_[upperFaceOf(axis)]));
   }
 
   float shareOf(int axis, const Vec3i& face) const {
@@ -144,7 +145,7 @@ class RowEvaluation {
 /// Two faces that are one because the box is periodic let through what both do.
 void joinPeriodicFaces(const FluidSettings& settings, MacVelocity& openShare) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (settings.faces[2 * axis] != FaceKind::periodic) continue;
+    if (!isPeriodic(settings.faces, axis)) continue;
     Grid3<float>& open = openShare.component(axis);
     const int b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
     const std::int64_t far = (open.size[axis] - 1) * open.stride(axis);

@@ -10,7 +10,7 @@ bool VisibleSampler::step(Vec3i& cell, int axis, bool forward) const {
   if (!(solid_.openShare.component(axis)(face.x, face.y, face.z) > 0)) return false;
   cell[axis] += forward ? 1 : -1;
   const int last = solid_.inside.size[axis] - 1;
-  if (faces_[2 * axis] == FaceKind::periodic) cell[axis] = cell[axis] < 0 ? last : cell[axis] > last ? 0 : cell[axis];
+  if (isPeriodic(faces_, axis)) cell[axis] = cell[axis] < 0 ? last : cell[axis] > last ? 0 : cell[axis];
   return true;
 }
 

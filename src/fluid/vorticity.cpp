@@ -46,7 +46,7 @@ class Confinement {
 
  private:
   std::int64_t planeCells() const { return static_cast<std::int64_t>(size_.x) * size_.y; }
-  bool periodic(int axis) const { return faces_[2 * axis] == FaceKind::periodic; }
+  bool periodic(int axis) const { return isPeriodic(faces_, axis); }
   /// The number of a cell along an axis: the nearest inside, or around a periodic box.
   int cell(int n, int axis) const {
     const int count = size_[axis];

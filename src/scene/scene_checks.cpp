@@ -19,7 +19,7 @@ void checkFaces(const Scene& scene, const Places& places) {
   const FluidSettings& gas = scene.simulation.fluid;
   const ParticleSettings& particles = scene.simulation.particles;
   for (int axis = 0; axis < 3; ++axis)
-    if ((gas.faces[2 * axis] == FaceKind::periodic) != (gas.faces[2 * axis + 1] == FaceKind::periodic))
+    if (isPeriodic(gas.faces, axis) != (gas.faces[upperFaceOf(axis)] == FaceKind::periodic))
       places.refuse("gas.faces", "must be periodic on both faces of an axis or on neither");
   const bool sealed = std::find(gas.faces.begin(), gas.faces.end(), FaceKind::open) == gas.faces.end();
   if (sealed && !gas.removeMeanSource && !particles.charges.empty() && particles.burning.gasPerMass > 0)

@@ -92,7 +92,7 @@ void giveBits(WorldState& world, const SimulationSettings& settings) {
 
 void carryParticles(WorldState& world, const SimulationSettings& settings, double dt) {
   GasAround around{world.gas.velocity, world.gas.temperature, world.gas.solid.openShare};
-  for (int axis = 0; axis < 3; ++axis) around.periodic[axis] = settings.fluid.faces[2 * axis] == FaceKind::periodic;
+  for (int axis = 0; axis < 3; ++axis) around.periodic[axis] = isPeriodic(settings.fluid.faces, axis);
   around.empty = world.gas.solid.empty;
   stepParticles(world.particles, around, settings.particles.burning, dt);
   stepBits(world.sparks, around, settings.particles.sparks, settings.rigid.gravity, dt);

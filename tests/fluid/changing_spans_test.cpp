@@ -38,7 +38,7 @@ bool canChange(const FluidState& gas, const FluidSettings& s, const Vec3i& cell)
     for (const int step : {-1, 1}) {
       Vec3i at = cell;
       at[axis] += step;
-      if (s.faces[2 * axis] == FaceKind::periodic) at[axis] = (at[axis] + s.cells[axis]) % s.cells[axis];
+      if (isPeriodic(s.faces, axis)) at[axis] = (at[axis] + s.cells[axis]) % s.cells[axis];
       if (at[axis] >= 0 && at[axis] < s.cells[axis] && differs(at)) return true;
     }
   return false;

@@ -51,7 +51,7 @@ double valueAt(const CellField& x, const Faces& faces, Vec3i cell) {
   for (int axis = 0; axis < 3; ++axis) {
     const int n = x.layout.cells[axis];
     if (cell[axis] >= 0 && cell[axis] < n) continue;
-    if (faces[2 * axis] != FaceKind::periodic) return 0;
+    if (!isPeriodic(faces, axis)) return 0;
     cell[axis] = (cell[axis] + n) % n;
   }
   return x(cell.x, cell.y, cell.z);

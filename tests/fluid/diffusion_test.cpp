@@ -72,8 +72,8 @@ TEST(Diffusion, BetweenAWallAtRestAndAMovingOneTheSpeedIsLinear) {
     for (const double lid : {2.0, -2.0}) {
       const int along = (axis + 1) % 3;
       FluidSettings s = box({8, 8, 8}, FaceKind::periodic);
-      s.faces[2 * axis] = s.faces[2 * axis + 1] = FaceKind::noSlip;
-      s.wallVelocity[2 * axis + 1][along] = lid;
+      s.faces[lowerFaceOf(axis)] = s.faces[upperFaceOf(axis)] = FaceKind::noSlip;
+      s.wallVelocity[upperFaceOf(axis)][along] = lid;
       s.viscosity = 0.5;
       FluidState gas = gasIn(s);
       FluidScratch scratch;
@@ -94,7 +94,7 @@ TEST(Diffusion, MirroredGasDiffusesToTheMirroredResult) {
       s.viscosity = other.viscosity = viscosity;
       s.wallVelocity[2] = {1, 0, 0.5};
       other.wallVelocity = s.wallVelocity;
-      std::swap(other.wallVelocity[2 * axis], other.wallVelocity[2 * axis + 1]);
+      std::swap(other.wallVelocity[lowerFaceOf(axis)], other.wallVelocity[upperFaceOf(axis)]);
       for (Vec3d& wall : other.wallVelocity) wall[axis] = -wall[axis];
       FluidState gas = gasIn(s), mirror = gas;
       setComponent(gas.velocity.u, [](const Vec3d& p) { return std::sin(5 * p.x) * p.z; });

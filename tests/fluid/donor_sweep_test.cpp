@@ -44,7 +44,7 @@ FluidState roughGas(const FluidSettings& s, bool solids) {
     fillAtRandom(speed, -1, 1, axis);
     const auto& open = gas.solid.openShare.component(axis).values;
     for (std::size_t n = 0; n < open.size(); ++n) speed.values[n] *= open[n] > 0 ? 1.0f : 0.0f;
-    if (s.faces[2 * axis] != FaceKind::periodic) continue;
+    if (!isPeriodic(s.faces, axis)) continue;
     for (int k = 0; k < speed.size.z; ++k)
       for (int j = 0; j < speed.size.y; ++j)
         for (int i = 0; i < speed.size.x; ++i) {
@@ -134,7 +134,7 @@ FluidState ballOfGas(const FluidSettings& s, const Vec3i& middle) {
         int squared = 0;
         for (int axis = 0; axis < 3; ++axis) {
           int away = std::abs(cell[axis] - middle[axis]);
-          if (s.faces[2 * axis] == FaceKind::periodic) away = std::min(away, s.cells[axis] - away);
+          if (isPeriodic(s.faces, axis)) away = std::min(away, s.cells[axis] - away);
           squared += away * away;
         }
         if (squared <= 9) continue;

@@ -24,7 +24,7 @@ struct MovingScene {
 /// A tube of free-slip walls, open at its upper end along an axis.
 FluidSettings tube(int axis) {
   FluidSettings s = box({16, 16, 16}, FaceKind::freeSlip);
-  s.faces[2 * axis + 1] = FaceKind::open;
+  s.faces[upperFaceOf(axis)] = FaceKind::open;
   return s;
 }
 

@@ -34,7 +34,7 @@ void stirAtRandom(FluidState& gas, const Faces& faces) {
       for (int j = 0; j < speed.size.y; ++j)
         for (int i = 0; i < speed.size.x; ++i)
           speed(i, j, k) = open(i, j, k) > 0 ? static_cast<float>(random.normal(index++)) : 0.0f;
-    if (faces[2 * axis] != FaceKind::periodic) continue;
+    if (!isPeriodic(faces, axis)) continue;
     for (int k = 0; k < speed.size.z; ++k)
       for (int j = 0; j < speed.size.y; ++j)
         for (int i = 0; i < speed.size.x; ++i) {
@@ -263,7 +263,7 @@ TEST(PressureSolvers, MirroredGasGivesTheMirroredResult) {
   for (const PressureSolver& solver : fastSolvers)
     for (int axis = 0; axis < 3; ++axis) {
       FluidSettings s = box({16, 16, 16});
-      s.faces[2 * axis] = FaceKind::noSlip;
+      s.faces[lowerFaceOf(axis)] = FaceKind::noSlip;
       s.pressure = solver;
       FluidState gas = stirredGas(s, solids), mirror = gas;
       mirror.velocity = mirrored(gas.velocity, axis);
@@ -273,7 +273,7 @@ TEST(PressureSolvers, MirroredGasGivesTheMirroredResult) {
       for (int a = 0; a < 3; ++a)
         mirror.solid.openShare.component(a) = mirrored(gas.solid.openShare.component(a), axis);
       FluidSettings other = s;
-      std::swap(other.faces[2 * axis], other.faces[2 * axis + 1]);
+      std::swap(other.faces[lowerFaceOf(axis)], other.faces[upperFaceOf(axis)]);
       PressureScratch scratch;
       project(gas, s, 0.1, scratch);
       project(mirror, other, 0.1, scratch);
