@@ -135,7 +135,8 @@ bool ElasticMesh::collapse(const Edge& edge, const Vec3d& place) {
 }
 
 bool ElasticMesh::flip(const Edge& edge) {
-  const auto [left, right, c, d] = wingsOf(edge);
+  const Wings wings = wingsOf(edge);
+  const std::uint32_t left = wings.left, right = wings.right, c = wings.leftCorner, d = wings.rightCorner;
   constexpr int even = 6;
   const auto unevenness = [&](int change) {
     int sum = 0;

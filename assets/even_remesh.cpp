@@ -93,6 +93,7 @@ class Remesher {
     for (const Edge& edge : mesh_.edges()) byLength.push_back({relativeLength(edge), edge});
     std::stable_sort(byLength.begin(), byLength.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
     std::vector<Edge> edges;
+    edges.reserve(byLength.size());
     for (const auto& [length, edge] : byLength) edges.push_back(edge);
     return edges;
   }

@@ -22,6 +22,7 @@ using namespace std::chrono_literals;
 /// Runs a command with what it says in a log. Returns the process.
 pid_t start(std::vector<std::string> command, const std::filesystem::path& log) {
   std::vector<char*> words;
+  words.reserve(command.size() + 1);
   for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
   const pid_t child = fork();
@@ -73,7 +74,7 @@ class LocalEngine : public FarmEngine {
   explicit LocalEngine(const FarmSettings& settings) : settings_(settings) {}
 
   std::string submit(const FarmJob& job) override {
-    const std::string id = fmt::format("{}.{}", job.name, settings_.round);
+    std::string id = fmt::format("{}.{}", job.name, settings_.round);
     if (settings_.dryRun) {
       for (const auto& task : job.tasks) fmt::print("{}\n", shellLine(task));
       return id;

@@ -95,6 +95,7 @@ double megabytes() {
 
 std::string sizesText(const std::vector<Piece>& pieces) {
   std::vector<std::size_t> sizes;
+  sizes.reserve(pieces.size());
   for (const Piece& piece : pieces) sizes.push_back(piece.mesh.triangles.size());
   std::sort(sizes.begin(), sizes.end());
   return fmt::format("{} to {} triangles, median {}", sizes.front(), sizes.back(), sizes[sizes.size() / 2]);

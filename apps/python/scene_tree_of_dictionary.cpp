@@ -18,7 +18,7 @@ class Converter {
     for (const auto& [key, value] : items) {
       if (!py::isinstance<py::str>(key)) refuse(path, "keys must be texts", key);
       const std::string name = py::cast<std::string>(key);
-      node.children.push_back(value_(value, path.empty() ? name : path + "." + name, depth + 1));
+      node.children.push_back(nodeOf(value, path.empty() ? name : fmt::format("{}.{}", path, name), depth + 1));
       node.children.back().key = name;
     }
     return node;
@@ -36,7 +36,7 @@ class Converter {
                                  quoted(py::cast<std::string>(py::repr(py::type::of(got))))));
   }
 
-  SceneNode value_(const py::handle& value, const std::string& path, int depth) {
+  SceneNode nodeOf(const py::handle& value, const std::string& path, int depth) {
     if (depth > deepest) refuse(path, "must nest less deeply", value);
     if (py::isinstance<py::dict>(value)) return table(py::reinterpret_borrow<py::dict>(value), path, depth);
     if (py::isinstance<Mesh>(value)) return mesh(py::cast<const Mesh&>(value));
@@ -45,14 +45,14 @@ class Converter {
     if (py::isinstance<py::float_>(value)) return number(py::cast<double>(value));
     if (py::isinstance<py::str>(value)) return text(py::cast<std::string>(value));
     if (py::hasattr(value, "__fspath__")) return text(py::cast<std::string>(value.attr("__fspath__")()));
-    if (py::hasattr(value, "tolist")) return value_(value.attr("tolist")(), path, depth + 1);  // NumPy's
+    if (py::hasattr(value, "tolist")) return nodeOf(value.attr("tolist")(), path, depth + 1);  // NumPy's
     if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return array(value, path, depth);
     refuse(path, "must be a number, a text, true or false, a list or a dictionary", value);
   }
   SceneNode array(const py::handle& items, const std::string& path, int depth) {
     SceneNode node = nodeOf(Kind::array);
     for (const py::handle item : items)
-      node.children.push_back(value_(item, fmt::format("{}.{}", path, node.children.size()), depth + 1));
+      node.children.push_back(nodeOf(item, fmt::format("{}.{}", path, node.children.size()), depth + 1));
     return node;
   }
   static SceneNode flag(bool value) {

@@ -63,7 +63,7 @@ class WorldHandle : public std::enable_shared_from_this<WorldHandle> {
   template <class Vector>
   std::shared_ptr<Loan> loanOf(Vector& vector) {
     const void* place = &vector;
-    if (const auto known = loans_[place].lock()) return known;
+    if (auto known = loans_[place].lock()) return known;
     auto loan = std::make_shared<VectorLoan<Vector>>(shared_from_this(), vector);
     loans_[place] = loan;
     return loan;

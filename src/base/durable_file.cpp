@@ -34,7 +34,7 @@ std::string ContentHash::hex() const {
 
 FileRecord writeDurably(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   DurableBatch one;
-  const FileRecord record = one.add(path, write);
+  FileRecord record = one.add(path, write);
   one.finish();
   return record;
 }
@@ -59,7 +59,7 @@ FileRecord writeDurablyByName(const fs::path& path, const std::function<void(con
   struct statvfs disk {};
   if (::fstatvfs(file.number(), &disk) == 0 && disk.f_blocks > 0 && disk.f_bfree == 0)
     throwSystemError(path, "cannot be written", ENOSPC);
-  const FileRecord record = recordOf(temporary.name());
+  FileRecord record = recordOf(temporary.name());
   temporary.becomeFinal();
   syncDirectoryOf(path);
   return record;

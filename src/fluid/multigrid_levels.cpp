@@ -178,7 +178,7 @@ std::int64_t grainOf(const CellLayout& layout) {
 
 void restrictResidual(const MultigridLevel& fine, MultigridLevel& coarse) {
   const Vec3i n = fine.x.layout.cells, m = coarse.x.layout.cells;
-  const auto& [alongX, alongY, alongZ] = fine.coarser;
+  const AxisInterpolation &alongX = fine.coarser[0], &alongY = fine.coarser[1], &alongZ = fine.coarser[2];
   parallelFor(0, m.z, grainOf(coarse.x.layout), [&](std::int64_t firstPlane, std::int64_t lastPlane) {
     GhostedRow sums(n.x);
     float* sum = sums.data();
@@ -201,7 +201,7 @@ void restrictResidual(const MultigridLevel& fine, MultigridLevel& coarse) {
 
 void addCorrection(const MultigridLevel& coarse, MultigridLevel& fine) {
   const Vec3i n = fine.x.layout.cells, m = coarse.x.layout.cells;
-  const auto& [alongX, alongY, alongZ] = fine.coarser;
+  const AxisInterpolation &alongX = fine.coarser[0], &alongY = fine.coarser[1], &alongZ = fine.coarser[2];
   parallelFor(0, n.z, grainOf(fine.x.layout), [&](std::int64_t firstPlane, std::int64_t lastPlane) {
     GhostedRow mixed(m.x);
     float* row = mixed.data();

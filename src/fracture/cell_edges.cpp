@@ -75,8 +75,9 @@ class EdgeOrder {
       : cut_(cut), surface_(surface), diagram_(diagram) {}
 
   /// Crossings of one edge from first to last.
-  void add(CellEdge& edge, std::vector<std::uint32_t> points, std::vector<EdgeCrossing>& crossings) const {
+  void add(CellEdge& edge, const std::vector<std::uint32_t>& points, std::vector<EdgeCrossing>& crossings) const {
     std::vector<std::pair<Place, EdgeCrossing>> places;
+    places.reserve(points.size());
     for (const std::uint32_t point : points) places.push_back(placed(edge, point));
     std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return before(a, b); });
     edge.first = static_cast<std::uint32_t>(crossings.size());

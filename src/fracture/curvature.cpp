@@ -163,7 +163,8 @@ VertexGraph VertexGraphs::whole() { return of(allOf(mesh_.triangles.size())); }
 VertexGraph VertexGraphs::of(std::span<const std::uint32_t> triangles) {
   constexpr std::uint32_t unused = 0xFFFFFFFFu;
   VertexGraph result;
-  auto& [graph, vertexOf, corners] = result;
+  FractureGraph& graph = result.graph;
+  std::vector<std::uint32_t>& vertexOf = result.vertexOf;
   for (const std::uint32_t t : triangles)
     for (const std::uint32_t v : mesh_.triangles[t]) nodeOf_[v] = unused;
   for (const std::uint32_t t : triangles)
@@ -176,7 +177,7 @@ VertexGraph VertexGraphs::of(std::span<const std::uint32_t> triangles) {
   for (std::uint32_t node = 0; node < vertexOf.size(); ++node) nodeOf_[vertexOf[node]] = node;
   for (const std::uint32_t t : triangles) {
     const auto& [a, b, c] = mesh_.triangles[t];
-    corners.push_back({nodeOf_[a], nodeOf_[b], nodeOf_[c]});
+    result.triangles.push_back({nodeOf_[a], nodeOf_[b], nodeOf_[c]});
   }
   EdgeUses uses = edgeUses(mesh_, triangles, vertexOf.size(), [&](std::uint32_t v) { return nodeOf_[v]; });
   graph.first.reserve(vertexOf.size() + 1);

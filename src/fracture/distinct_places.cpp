@@ -10,8 +10,8 @@ namespace {
 /// Neighbours of the origin in a cube of (2 reach + 1)^3, by number.
 Vec3d cubeOffset(int number, int reach) {
   const int side = 2 * reach + 1;
-  return {static_cast<double>(number % side - reach), static_cast<double>(number / side % side - reach),
-          static_cast<double>(number / (side * side) - reach)};
+  const int x = number % side, y = number / side % side, z = number / (side * side);
+  return {static_cast<double>(x - reach), static_cast<double>(y - reach), static_cast<double>(z - reach)};
 }
 
 }  // namespace

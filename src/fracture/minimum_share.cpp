@@ -90,7 +90,7 @@ class Exchange {
     return half;
   }
 
-  void give(const Nodes given, int from, int to) {
+  void give(const Nodes& given, int from, int to) {
     bySize_.erase({sizeOf_[from], from});
     bySize_.erase({sizeOf_[to], to});
     for (const std::uint32_t node : given) {

@@ -99,6 +99,7 @@ std::vector<TriangleMesh> separateBodies(const TriangleMesh& mesh, const SolidSu
 
 std::vector<int> piecesOfBodies(const std::vector<TriangleMesh>& bodies, int pieces) {
   std::vector<double> volume;
+  volume.reserve(bodies.size());
   for (const TriangleMesh& body : bodies) volume.push_back(std::abs(solidProperties(body).volume));
   std::vector<int> share(bodies.size(), 1);
   // One after the other to the body whose pieces are largest.

@@ -33,8 +33,8 @@ std::vector<double> strengthWithSeams(const TriangleMesh& mesh, CurvatureWeights
 /// Cuts one body. Without result where the surface crosses itself so that pieces stay open.
 class SolidBreaker {
  public:
-  SolidBreaker(const TriangleMesh& mesh, const SolidSurface& surface, FractureSettings settings)
-      : mesh_(mesh), surface_(surface), settings_(std::move(settings)), pieces_(settings_.pieces) {}
+  SolidBreaker(const TriangleMesh& mesh, const SolidSurface& surface, const FractureSettings& settings)
+      : mesh_(mesh), surface_(surface), settings_(settings), pieces_(settings.pieces) {}
 
   std::optional<SolidCut> run() {
     try {

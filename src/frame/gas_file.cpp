@@ -53,7 +53,7 @@ template <class VdbGrid, class T>
 typename VdbGrid::Ptr makeSkeleton(const BrickSource<T>& source, const PackedLeaves& leaves) {
   using Leaf = typename VdbGrid::TreeType::LeafNodeType;
   const auto background = toVdb(source.background);
-  const auto grid = VdbGrid::create(background);
+  auto grid = VdbGrid::create(background);
   for (std::size_t n = 0; n < leaves.corners.size(); ++n) {
     const Vec3i& corner = leaves.corners[n];
     auto leaf =

@@ -88,6 +88,7 @@ class Animation {
     const auto [place, isNew] = times_.try_emplace(frames, 0);
     if (!isNew) return place->second;
     std::vector<float> seconds;
+    seconds.reserve(frames.size());
     for (const int frame : frames) seconds.push_back(static_cast<float>((frame - 1) / fps_));
     const int number = place->second = writer_.addAccessor(seconds, gltf::scalar, gltf::float32);
     writer_.accessor(number)["min"] = {seconds.front()};

@@ -182,7 +182,7 @@ void RunDirectory::writeManifest() { writeDurably(path_ / manifestName, manifest
 /// Of a file that is to be written; its folder is there.
 fs::path RunDirectory::placeOf(const std::string& name) const {
   CHECK(isNameInRun(name), "{}", name);
-  const fs::path path = path_ / name;
+  fs::path path = path_ / name;
   makeDirectories(path.parent_path());
   return path;
 }
@@ -237,7 +237,7 @@ std::string RunDirectory::addInput(const fs::path& source) {
   const std::string bytes = readFile(source);
   ContentHash hash;
   hash.add(bytes);
-  const std::string name = "inputs/" + hash.hex() + source.extension().string();
+  std::string name = "inputs/" + hash.hex() + source.extension().string();
   if (!manifest_.contains(name)) add(name, bytes);
   return name;
 }

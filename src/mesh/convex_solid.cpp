@@ -41,6 +41,7 @@ std::vector<std::uint32_t> outlineOf(std::vector<FlatPoint> points, double flat)
   for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
   chain.pop_back();
   std::vector<std::uint32_t> numbers;
+  numbers.reserve(chain.size());
   for (const FlatPoint& p : chain) numbers.push_back(p.number);
   return numbers;
 }

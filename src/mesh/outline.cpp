@@ -53,6 +53,7 @@ std::string edgeName(std::size_t index, std::size_t count) {
 std::string touchingEdges(const std::vector<Vec2d>& corners, double gap) {
   const std::size_t n = corners.size();
   std::vector<Edge> edges;
+  edges.reserve(n);
   for (std::size_t i = 0; i < n; ++i) edges.push_back({i, corners[i], corners[(i + 1) % n]});
   std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) { return e.left() < f.left(); });
   for (std::size_t i = 0; i < n; ++i)

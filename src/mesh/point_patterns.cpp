@@ -89,6 +89,7 @@ std::vector<Vec2d> pointsInside(const PaneArea& pane, const UniformPoints&, cons
                                 const std::vector<Vec2d>&) {
   Darts darts(pane, random);
   std::vector<Vec2d> points;
+  points.reserve(std::max(0, pane.count));
   for (int i = 0; i < pane.count; ++i) points.push_back(darts.next());
   return points;
 }

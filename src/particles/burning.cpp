@@ -137,7 +137,8 @@ void createSoot(ParticleSet& particles, const BurnSettings& settings, const Grid
   constexpr std::int64_t parentsPerTask = 256;
   parallelFor(0, static_cast<std::int64_t>(parents.size()), parentsPerTask, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t m = first; m < last; ++m) {
-      auto [parent, at] = parents[m];
+      const std::size_t parent = parents[m].parent;
+      std::size_t at = parents[m].firstSoot;
       takeSoot(settings, particles.sootMass[parent], particles.madeSoot[parent],
                [&](double mass) { makeSoot(particles, scatter, solid, parent, at++, mass); });
     }

@@ -105,6 +105,7 @@ Image readChannels(Imf::InputFile& file, const std::string& fileName) {
 
 std::string encodeExr(const Image& image) {
   std::vector<ExrChannel> channels;
+  channels.reserve(3);
   for (int c = 0; c < 3; ++c) channels.push_back({channelNames[c], &image.pixels.front().x + c, 3});
   return encodeExr(image.width, image.height, channels, {});
 }

@@ -172,6 +172,7 @@ std::vector<Load> bondLoads(const RigidBodies& bodies, std::span<const Load> loa
   for (const Load& load : loads) wanted.push_back({load.push, load.twist});
   const Moves moves = yield(beams, wanted);
   std::vector<Load> passed;
+  passed.reserve(beams.size());
   for (const Beam& beam : beams) passed.push_back(pullOf(beam, moves));
   return passed;
 }

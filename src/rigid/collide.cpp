@@ -66,6 +66,7 @@ Touching findContacts(const RigidBodies& bodies, const std::vector<CollisionShap
   std::vector<BodyPair> pairs = withoutPassing(nearPairs(bodies, shapes, reach, isFree), bodies);
   std::erase_if(pairs, [&](const BodyPair& pair) { return group[pair.a] == group[pair.b]; });
   std::vector<double> together;
+  together.reserve(pairs.size());
   for (const auto& [a, b] : pairs) together.push_back(reach[a] + reach[b]);
   Touching touching;
   for (const std::vector<ContactPoint>& found : contactsOf(bodies, shapes, pairs, together))
@@ -87,6 +88,7 @@ std::vector<bool> pushed(const ContactSolver& solver, std::span<const ContactPoi
 
 std::vector<Vec3d> flight(const std::vector<bool>& isPushed, const Vec3d& gravity, double dt) {
   std::vector<Vec3d> fall;
+  fall.reserve(isPushed.size());
   for (const bool is : isPushed) fall.push_back(is ? Vec3d{} : gravity * (-dt * dt / 2));
   return fall;
 }

@@ -77,6 +77,7 @@ int waitFor(pid_t child) {
 /// afterwards, so that a talkative program cannot block on a pipe nobody empties.
 Finished spawn(std::vector<std::string> arguments) {
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   Pipe output;

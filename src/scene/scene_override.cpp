@@ -40,6 +40,7 @@ SceneNode parseValue(const std::string& path, const std::string& text) {
 
 [[noreturn]] void refuseElement(const SceneNode& array, const std::string& part, const std::string& path) {
   std::vector<std::string> names;
+  names.reserve(array.children.size());
   for (std::size_t i = 0; i < array.children.size(); ++i) names.push_back(elementName(array.children[i], i));
   throw InputError(fmt::format("--set: {}: there is no {}; there {}", quoted(path), quoted(part),
                                names.empty() ? "are none" : fmt::format("are {}", quoted(joined(names, ", ")))));

@@ -70,7 +70,7 @@ HttpAnswer RunSite::moment(int frame) {
     const std::lock_guard lock(guard_);
     if (const auto found = moments_.find(key); found != moments_.end()) return found->second;
   }
-  const HttpAnswer made = answerWith("application/octet-stream", run_.moment(frame));
+  HttpAnswer made = answerWith("application/octet-stream", run_.moment(frame));
   const std::lock_guard lock(guard_);
   if (!moments_.emplace(key, made).second) return made;
   order_.push_back(key);

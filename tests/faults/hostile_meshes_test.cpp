@@ -1,4 +1,5 @@
 // Meshes that are broken, or made to break a reader: through the real program, in little time and memory.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -16,7 +17,7 @@ double secondsOfChildren() {
   getrusage(RUSAGE_CHILDREN, &used);
   return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
 }
-constexpr long mostKilobytes = 256 * 1024;
+constexpr long mostKilobytes = 256L * 1024;
 
 struct Hostile {
   std::string file;  ///< name; the extension chooses the reader
@@ -62,9 +63,8 @@ std::string heap() {
 std::string onion(int shells) {
   std::string text;
   for (int n = 1; n <= shells; ++n) {
-    const std::string r = std::to_string(n);
-    text += "v -" + r + " -" + r + " -" + r + "\nv " + r + "0 0 0\nv 0 " + r + "0 0\nv 0 0 " + r +
-            "0\nf -4 -2 -3\nf -4 -3 -1\nf -4 -1 -2\nf -3 -2 -1\n";
+    text += fmt::format("v -{0} -{0} -{0}\nv {0}0 0 0\nv 0 {0}0 0\nv 0 0 {0}0\n", n);
+    text += "f -4 -2 -3\nf -4 -3 -1\nf -4 -1 -2\nf -3 -2 -1\n";
   }
   return text;
 }

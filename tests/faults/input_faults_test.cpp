@@ -50,7 +50,7 @@ TEST(InputFiles, AnIndexBeyondTheVerticesIsNamedWithItsLine) {
 
 TEST(InputFiles, ANumberThatIsNotFiniteIsNamedWithItsLine) {
   MeshScene s;
-  for (const std::string number : {"nan", "inf", "1e999", "zero"}) {
+  for (const std::string& number : std::vector<std::string>{"nan", "inf", "1e999", "zero"}) {
     writeText(s.mesh, "v 0 0 0\nv 0.1 0 " + number + "\nv 0 0.1 0\nf 1 2 3\n");
     s.expectRefusal(3, {s.mesh.string() + ":2"});
   }

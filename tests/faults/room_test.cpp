@@ -87,7 +87,7 @@ class SmallDisk {
 
 TEST(NoRoom, AFullDiskStopsASimulationWithAWholeRunBehind) {
   PublicPlace p;
-  for (const std::string size : {"16k", "100k", "200k"}) {
+  for (const std::string& size : std::vector<std::string>{"16k", "100k", "200k"}) {
     SmallDisk disk(size);
     if (!disk.works()) GTEST_SKIP() << "no right to mount a small disk here";
     const fs::path run = disk / "run";

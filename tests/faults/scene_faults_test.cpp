@@ -96,7 +96,8 @@ TEST(WrongCommandLine, EachMistakeIsOneLineAndExitCode2) {
   expectOneLine(runProgram({"run", scene, "-o", run, "--threads", "-1"}), 2, {"--threads"});
   expectOneLine(runProgram({"run", scene, "-o", run, "--size", "64"}), 2, {"--size", "WIDTHxHEIGHT", "64"});
   expectOneLine(runProgram({"run", scene, "-o", run, "--samples", "0"}), 2, {"--samples"});
-  for (const std::string frames : {"0-4", "4-2", "1-", "a", "1-2:0", "1-2:", "1-9999999999999", "-3", "1-2x"})
+  for (const std::string& frames :
+       std::vector<std::string>{"0-4", "4-2", "1-", "a", "1-2:0", "1-2:", "1-9999999999999", "-3", "1-2x"})
     expectOneLine(runProgram({"run", scene, "-o", run, std::string("--frames=").append(frames)}), 2,
                   {"--frames", frames});
   expectOneLine(runProgram({"run", scene, "-o", run, "--frames", "1-9"}), 2, {"--frames", "2 frames"});
@@ -109,7 +110,7 @@ TEST(WrongCommandLine, EachMistakeIsOneLineAndExitCode2) {
 TEST(WrongCommandLine, WhatNeedsARunSaysSoWhereThereIsNone) {
   Attempt attempt(smallSceneText(2));
   fs::create_directory(attempt.run);
-  for (const std::string command : {"render", "encode", "verify"})
+  for (const std::string& command : std::vector<std::string>{"render", "encode", "verify"})
     expectOneLine(runProgram({command, attempt.run}), 2, {attempt.run.string(), "run"});
   expectOneLine(runProgram({"info", attempt.place / "nothing"}), 2, {"does not exist"});
 }

@@ -65,6 +65,7 @@ TEST(CellDiagram, AHeavySeedHidesItsNeighbours) {
 
 TEST(CellDiagram, SeedsOnALatticeCoincide) {
   std::vector<WeightedSeed> seeds;
+  seeds.reserve(27);
   for (int i = 0; i < 27; ++i) seeds.push_back({{1000 * (i % 3), 1000 * (i / 3 % 3), 1000 * (i / 9)}, 0});
   EXPECT_THROW(CellDiagram{seeds}, Coincidence);
 }

@@ -22,6 +22,7 @@ FractureGraph placedGraph(const TriangleMesh& mesh) {
 std::vector<Vec3d> randomPlaces(int count) {
   const Random random(1, Stream::test);
   std::vector<Vec3d> places;
+  places.reserve(count);
   for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(count); ++i)
     places.push_back({random.uniform(3 * i), random.uniform(3 * i + 1), random.uniform(3 * i + 2)});
   return places;
@@ -73,6 +74,7 @@ TEST(CellSeeds, CanBeAllPlaces) {
 TEST(CellSeeds, FollowSizes) {
   std::vector<Vec3d> places = randomPlaces(4000);
   std::vector<double> sizes;
+  sizes.reserve(places.size());
   for (const Vec3d& place : places) sizes.push_back(place.x < 0.5 ? 9 : 1);
   int heavy = 0;
   for (const std::uint32_t seed : crowdedPoints(places, sizes, 400, {}, 1)) heavy += places[seed].x < 0.5;

@@ -189,7 +189,7 @@ class UsdReader {
       default: {
         const std::size_t start = at_;
         while (at_ < text_.size() && !strchr(" \n,)", text_[at_])) ++at_;
-        const std::string number = text_.substr(start, at_ - start);
+        std::string number = text_.substr(start, at_ - start);
         std::size_t used = 0;
         std::stod(number, &used);
         if (used != number.size()) fail("no number: " + number);

@@ -160,7 +160,7 @@ TEST(UsdFilm, TheGasIsAFilePerFrameForEachField) {
   const UsdPrim& gas = *layer.at("/World/Gas");
   EXPECT_EQ(gas.type, "Volume");
   EXPECT_EQ(numbersIn(gas.properties.at("float3[] extent")), std::vector<double>({-1, 0, -1, 1, 2, 1}));
-  for (const std::string field : {"density", "temperature", "flame", "vel"}) {
+  for (const std::string& field : std::vector<std::string>{"density", "temperature", "flame", "vel"}) {
     EXPECT_EQ(gas.properties.at("rel field:" + field), "</World/Gas/" + field + ">");
     const UsdPrim& asset = gas.child(field);
     EXPECT_EQ(asset.type, "OpenVDBAsset");

@@ -48,6 +48,7 @@ TEST(InterpolateMany, IsExactForALinearField) {
       for (int i = 0; i < 8; ++i) grid(i, j, k) = static_cast<float>(i + 10 * j - 3 * k);
   const Random random(3, Stream::test);
   std::vector<Vec3d> places;
+  places.reserve(200);
   for (std::uint64_t n = 0; n < 200; ++n)
     places.emplace_back(3.5 * random.uniform(3 * n), 3.5 * random.uniform(3 * n + 1), 3.5 * random.uniform(3 * n + 2));
   std::vector<float> values(places.size());

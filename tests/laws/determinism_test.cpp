@@ -83,7 +83,7 @@ TEST_F(Determinism, OneThreadGivesTheSameFilesAsTwo) {
 }
 
 TEST_F(Determinism, PlainCodeGivesTheSameFilesAsTheWidestVectors) {
-  for (const std::string path : {"plain", "avx2"}) {
+  for (const std::string& path : std::vector<std::string>{"plain", "avx2"}) {
     StartOptions options;
     options.environment = {{"BRISANCE_VECTOR", path}};
     ASSERT_EQ(simulate(path, {}, options).exitCode, 0);
@@ -92,7 +92,7 @@ TEST_F(Determinism, PlainCodeGivesTheSameFilesAsTheWidestVectors) {
 }
 
 TEST_F(Determinism, EverySchemeGivesTheSameFilesByOnePlainThreadAsByTwoWideOnes) {
-  for (const std::string scheme : {"maccormack", "semi_lagrangian"}) {
+  for (const std::string& scheme : std::vector<std::string>{"maccormack", "semi_lagrangian"}) {
     const std::vector<std::string> carried{"--set", "gas.advection=" + scheme, "--set", "gas.viscosity=0.01"};
     std::vector<std::string> one = carried, two = carried;
     one.insert(one.end(), {"--threads", "1"});

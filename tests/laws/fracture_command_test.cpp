@@ -70,7 +70,7 @@ TEST_F(FractureCommand, LabelsEveryInputTriangle) {
 }
 
 TEST_F(FractureCommand, GivesTheSameLabelsWithOneThreadAndTwo) {
-  for (const std::string threads : {"1", "2"})
+  for (const std::string& threads : std::vector<std::string>{"1", "2"})
     facts({"--pieces", "40", "--threads", threads, "--labels", file("labels" + threads)});
   EXPECT_EQ(textOf(file("labels1")), textOf(file("labels2")));
 }

@@ -62,7 +62,7 @@ TEST(RunDirectories, ASecondWriterIsRefusedWhileTheFirstLives) {
   LongRun l;
   Program first({"simulate", l.scene, "-o", l.run, "--quiet"});
   ASSERT_TRUE(waitUntil([&] { return l.hasFrames(2); }, patience));
-  for (const std::string option : {"--resume", "--overwrite"}) {
+  for (const std::string& option : std::vector<std::string>{"--resume", "--overwrite"}) {
     const Outcome second = runProgram({"simulate", l.scene, "-o", l.run, option});
     EXPECT_EQ(second.exitCode, 1) << second.err;
     EXPECT_NE(second.err.find("another process is working in this run"), std::string::npos) << second.err;
@@ -101,7 +101,8 @@ TEST(RunDirectories, AFilmIsMadeStageByStageAsInOneGo) {
   ASSERT_EQ(runProgram({"encode", l.run, "--quiet"}).exitCode, 0);
   const Outcome whole = runProgram({"run", l.scene, "-o", inOneGo, "--frames", "1-4", "--quiet"});
   ASSERT_EQ(whole.exitCode, 0) << whole.err;
-  for (const std::string name : {"images/frame.0001.png", "images/frame.0004.png", "images/frame.0004.exr"})
+  for (const std::string& name :
+       std::vector<std::string>{"images/frame.0001.png", "images/frame.0004.png", "images/frame.0004.exr"})
     EXPECT_TRUE(textOf(l.run / name) == textOf(inOneGo / name)) << name;
   EXPECT_EQ(runProgram({"verify", l.run}).exitCode, 0);
   EXPECT_TRUE(fs::exists(l.run / "film.mp4"));

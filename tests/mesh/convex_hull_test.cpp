@@ -25,6 +25,7 @@ TEST(ConvexHull, OfABoxIsTheBox) {
 TEST(ConvexHull, HoldsAllItsPoints) {
   const Random random(2, Stream::test);
   std::vector<Vec3d> points;
+  points.reserve(500);
   for (int n = 0; n < 500; ++n) points.push_back(random.normal3(n) * 1e-3 + Vec3d(1e4, 0, -1e4));
   const TriangleMesh hull = convexHull(points);
   EXPECT_TRUE(isClosed(hull));
@@ -42,6 +43,7 @@ TEST(ConvexHull, FlatPointsHaveAClosedHullStill) {
     for (int j = 0; j < 5; ++j) sheet.push_back({0.1 * i, 0.2 * j, 0.3 * i + 0.1 * j});
   EXPECT_TRUE(isClosed(convexHull(sheet)));
   std::vector<Vec3d> line;
+  line.reserve(9);
   for (int i = 0; i < 9; ++i) line.push_back({0.1 * i, 0.2 * i, 0.3 * i});
   EXPECT_TRUE(isClosed(convexHull(line)));
   EXPECT_TRUE(isClosed(convexHull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})));

@@ -53,6 +53,11 @@ Image lampPicture(RenderSettings settings, const FrameBody& body) {
   return renderFrame(frame, settings);
 }
 
+Image drawnBy(int threads, const Frame& frame, const RenderSettings& settings) {
+  const ThreadLimit limit(threads);
+  return renderFrame(frame, settings);
+}
+
 double mean(const Image& image) {
   double sum = 0;
   for (const Vec3f& pixel : image.pixels) sum += pixel.x;
@@ -63,13 +68,9 @@ double mean(const Image& image) {
 
 TEST(RenderFrame, OneThreadAndFourMakeTheSamePixels) {
   const auto [frame, settings] = smallExplosion();
-  const auto drawn = [&](int threads) {
-    const ThreadLimit limit(threads);
-    return renderFrame(frame, settings);
-  };
-  const Image one = drawn(1);
+  const Image one = drawnBy(1, frame, settings);
   EXPECT_GT(mean(one), 0.01);
-  EXPECT_EQ(contentHash(one), contentHash(drawn(4)));
+  EXPECT_EQ(contentHash(one), contentHash(drawnBy(4, frame, settings)));
 }
 
 TEST(RenderFrame, EndsEarlyWhenAskedTo) {
@@ -88,13 +89,9 @@ TEST(RenderFrame, EndsEarlyWhenAskedTo) {
 TEST(RenderFrame, PathsAreTheSameForOneThreadAndFour) {
   auto [frame, settings] = smallExplosion();
   settings.integrator = PathIntegrator{};
-  const auto drawn = [&](int threads) {
-    const ThreadLimit limit(threads);
-    return renderFrame(frame, settings);
-  };
-  const Image one = drawn(1);
+  const Image one = drawnBy(1, frame, settings);
   EXPECT_GT(mean(one), 0.01);
-  EXPECT_EQ(contentHash(one), contentHash(drawn(4)));
+  EXPECT_EQ(contentHash(one), contentHash(drawnBy(4, frame, settings)));
 }
 
 // Where no light goes further than appendix A follows it, both integrators see the same.

@@ -81,7 +81,7 @@ TEST(SceneErrors, OnlySemiLagrangianStepsMayBeLongerThanACell) {
 }
 
 TEST(SceneErrors, NumbersThatAreNoneAreRefusedEverywhere) {
-  for (const std::string number : {"nan", "inf", "-inf", "1e300"}) {
+  for (const std::string& number : std::vector<std::string>{"nan", "inf", "-inf", "1e300"}) {
     const std::string shown = number == "1e300" ? "1e+300" : number;
     expectLine("[gas]\nviscosity = " + number + "\n",
                "s.toml:2: gas.viscosity: must be a number within 1e+15 [m2/s], got " + shown);
@@ -187,7 +187,7 @@ TEST(SceneErrors, ASealedBoxWithAChargeIsRefusedUnlessTheMeanMayGo) {
 }
 
 TEST(SceneErrors, AChargeLiesInsideTheBoxOfGas) {
-  for (const std::string side : {"-1", "2"})
+  for (const std::string& side : std::vector<std::string>{"-1", "2"})
     expectLine("[[explosion.charges]]\nposition = [0.5, " + side + ", 0.5]\n",
                "s.toml:2: explosion.charges.0.position: must lie with its radius 0.1 inside the gas box [0, 0, 0] to "
                "[1, 1, 1] [m], got [0.5, " +

@@ -112,8 +112,8 @@ void LayersInBlender::haveACryptomatteThatPicksABodyByItsName() const {
   double covered = 0;
   for (std::size_t p = 0; p < pixels(); ++p) {
     float share = 0;
-    for (const std::string layer : {"CryptoObject00.", "CryptoObject01.", "CryptoObject02."})
-      for (const std::string pair : {"RG", "BA"})
+    for (const std::string& layer : std::vector<std::string>{"CryptoObject00.", "CryptoObject01.", "CryptoObject02."})
+      for (const std::string& pair : std::vector<std::string>{"RG", "BA"})
         if (std::bit_cast<std::uint32_t>(file_.channels.at(layer + pair[0])[p]) == id)
           share += file_.channels.at(layer + pair[1])[p];
     ASSERT_NEAR(matte[4 * p], share, 1e-6) << "in pixel " << p;
