@@ -8,7 +8,7 @@
 
 #include "fracture/fracture_settings.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's
 class App;
 }
 

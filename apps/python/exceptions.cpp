@@ -36,7 +36,7 @@ void raise(const Trouble& trouble) {
 }
 
 /// What is not named here is Python's or pybind11's own, or a bug.
-void translate(std::exception_ptr thrown) {
+void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): as pybind11 calls it
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const Error&) {

@@ -11,7 +11,7 @@ namespace brisance {
 template <class T, template <class> class Allocator = std::allocator>
 struct Unset : Allocator<T> {
   template <class U>
-  struct rebind {
+  struct rebind {  // NOLINT(readability-identifier-naming): as allocators name it
     using other = Unset<U, Allocator>;
   };
   template <class U>

@@ -60,6 +60,10 @@ class Strip {
   float* placeOf(int k) const { return samples_.has(k) ? samples_.at(k) : absent_[k]; }
   const float* shareOf(int k) const { return shares_[std::min(k, lastShare_)]; }
 
+  static bool haveSameBits(const float* a, const float* b) {
+    return std::memcmp(a, b, lines * sizeof(float)) == 0;  // NOLINT(bugprone-suspicious-memory-comparison)
+  }
+
   /// Sample k's equation, those before it eliminated, has the pivot 1 + e_k, where e_0 = lambda + below and e_k =
   /// lambda + s_(k-1), s = e / (1 + e): nothing is subtracted, so that the smallest lambda keeps its digits. Writes
   /// s_0, s_1 .. until they change no more.
@@ -74,7 +78,7 @@ class Strip {
         s[q] = at(here, q) = excess / (1 + excess);
       }
       if (lastShare_ == axis_.n - 1) return;
-      if (lastShare_ % often == often - 1 && !std::memcmp(here, shares_[lastShare_ - 1], lines * sizeof(float))) return;
+      if (lastShare_ % often == often - 1 && haveSameBits(here, shares_[lastShare_ - 1])) return;
     }
   }
 

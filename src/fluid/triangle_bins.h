@@ -25,7 +25,7 @@ class TriangleBins {
   struct Entry {
     std::int64_t cell;
     std::uint32_t triangle;
-    friend auto operator<=>(const Entry&, const Entry&) = default;
+    friend auto operator<=>(const Entry&, const Entry&) = default;  // NOLINT(modernize-use-nullptr)
   };
   std::vector<Corners> triangles_;
   std::vector<Entry> entries_;

@@ -10,7 +10,7 @@ namespace {
 
 struct DirectedEdge {
   std::uint32_t from, to;
-  friend auto operator<=>(const DirectedEdge&, const DirectedEdge&) = default;
+  friend auto operator<=>(const DirectedEdge&, const DirectedEdge&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// The border of one face inside the body.
@@ -22,7 +22,7 @@ struct FaceBorder {
 /// A tetrahedron with two of its seeds named; the other two follow one another counter-clockwise about them.
 struct PairCorner {
   std::uint32_t low, high, tetrahedron;
-  friend auto operator<=>(const PairCorner&, const PairCorner&) = default;
+  friend auto operator<=>(const PairCorner&, const PairCorner&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 std::vector<PairCorner> pairCorners(const CellDiagram& diagram) {

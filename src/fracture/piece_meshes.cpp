@@ -260,7 +260,7 @@ struct PieceEdge {
   int piece;
   std::uint32_t low, high;
   bool rising;
-  friend auto operator<=>(const PieceEdge&, const PieceEdge&) = default;
+  friend auto operator<=>(const PieceEdge&, const PieceEdge&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// The sides of a triangle between two new vertices.

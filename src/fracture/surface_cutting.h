@@ -15,7 +15,7 @@ struct CutPoint {
   };
   Kind kind = corner;
   std::array<std::uint32_t, 4> of{};
-  friend auto operator<=>(const CutPoint&, const CutPoint&) = default;
+  friend auto operator<=>(const CutPoint&, const CutPoint&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct CutPolygon {
@@ -27,7 +27,7 @@ struct CutPolygon {
 struct CapSegment {
   std::uint32_t lowCell, highCell;
   std::uint32_t from, to;  ///< the face, as seen from the high cell, lies to the left
-  friend auto operator<=>(const CapSegment&, const CapSegment&) = default;
+  friend auto operator<=>(const CapSegment&, const CapSegment&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct CutSurface {

@@ -81,7 +81,7 @@ std::vector<KeyedVertex> sortedVertices(const TriangleMesh& mesh) {
 struct NumberedTriangle {
   Triangle corners;
   std::uint32_t number;
-  auto operator<=>(const NumberedTriangle&) const = default;
+  auto operator<=>(const NumberedTriangle&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// The corners as they follow one another, the lowest first.

@@ -11,7 +11,7 @@ namespace brisance {
 struct LatticePoint {
   std::int32_t x = 0, y = 0;  ///< from 0 to 2^30: a product of two differences fits 64 bits, of four 128
   friend bool operator==(const LatticePoint&, const LatticePoint&) = default;
-  friend auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
+  friend auto operator<=>(const LatticePoint&, const LatticePoint&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// Twice the signed area of a triangle: above 0 where a, b, c turn counter-clockwise, 0 on one line.

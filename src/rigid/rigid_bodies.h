@@ -13,7 +13,7 @@ namespace brisance {
 /// Numbers of two bodies, the lower first.
 struct BodyPair {
   std::uint32_t a = 0, b = 0;
-  friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
+  friend auto operator<=>(const BodyPair&, const BodyPair&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// What one body pressed against another with in the last step: where the next step starts to solve from.
