@@ -47,8 +47,10 @@ struct DrawnPoints {
     ShareRun share;
     CellSpan reached;
     runWide([&] {
-      setShares(first, count, share);
-      reached = findRows(count, mass, share, rows);
+      std::int32_t hidden[sortRun];
+      for (int n = 0; n < count; ++n) hidden[n] = !(mass[n] > 0);
+      setShares(first, count, share, hidden);
+      reached = findRows(count, hidden, share, rows);
     });
     for (int n = 0; n < count; ++n) {
       const Vec3f amount = colour[n] * mass[n];
@@ -58,22 +60,27 @@ struct DrawnPoints {
   }
 
  private:
-  void setShares(std::int64_t first, int count, ShareRun& share) const {
-    for (int axis = 0; axis < 3; ++axis) share.set(axis, count, settings.size[axis], placeAlong(axis, first));
+  /// And sets hidden[n] where the place is not in the volume.
+  void setShares(std::int64_t first, int count, ShareRun& share, std::int32_t* hidden) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double last = settings.size[axis] - .5;
+      share.set(axis, count, settings.size[axis], placeAlong(axis, first),
+                [=](int n, double at) { hidden[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= last)}; });
+    }
   }
-  CellSpan findRows(int count, const float* mass, const ShareRun& share, std::int32_t* rows) const {
+  CellSpan findRows(int count, const std::int32_t* hidden, const ShareRun& share, std::int32_t* rows) const {
     const BandedRows numbers(settings.size.y, settings.size.z);
 #pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      const std::int32_t hidden = -std::int32_t{!(mass[n] > 0)} | share.outside[n];
-      rows[n] = hidden ? -1 : share.rowOf(n, numbers);
+      const std::int32_t row = share.rowOf(n, numbers);
+      rows[n] = hidden[n] ? -1 : row;
     }
     constexpr std::int32_t largest = std::numeric_limits<std::int32_t>::max();
     std::int32_t lowest = largest, highest = -1;
     for (int n = 0; n < count; ++n) {
-      const std::int32_t x = share.lower[0][n], hidden = rows[n] >> 31;
-      lowest = std::min(lowest, x | (hidden & largest));
-      highest = std::max(highest, x | hidden);
+      const std::int32_t x = share.lower[0][n], none = rows[n] >> 31;
+      lowest = std::min(lowest, x | (none & largest));
+      highest = std::max(highest, x | none);
     }
     return {lowest, highest + 1};
   }

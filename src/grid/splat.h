@@ -35,12 +35,11 @@ class BandedRows {
 struct ShareRun {
   std::int32_t lower[3][sortRun];
   float fraction[3][sortRun];
-  std::int32_t outside[sortRun] = {};  ///< not 0: beyond the cells
 
   /// place(n) of points n = 0 .. count - 1 in cells along an axis, 0 being the first cell's centre; all belongs to the
-  /// outermost cell beyond its centre. Sets outside[n] where the place is beyond the outermost cell's outer face.
-  template <class Place>
-  void set(int axis, int count, int cells, const Place& place) {
+  /// outermost cell beyond its centre. Calls note(n, at) with each place.
+  template <class Place, class Note>
+  void set(int axis, int count, int cells, const Place& place, const Note& note) {
     const double lastCentre = cells - 1.0;
     const std::int32_t lastLower = std::max(0, cells - 2);
     std::int32_t* lowers = lower[axis];
@@ -51,8 +50,12 @@ struct ShareRun {
       const std::int32_t below = static_cast<std::int32_t>(inside);
       lowers[n] = below < lastLower ? below : lastLower;
       fractions[n] = static_cast<float>(inside - lowers[n]);
-      outside[n] |= std::int32_t{!(at >= -.5)} | std::int32_t{!(at <= lastCentre + .5)};
+      note(n, at);
     }
+  }
+  template <class Place>
+  void set(int axis, int count, int cells, const Place& place) {
+    set(axis, count, cells, place, [](int, double) {});
   }
   void set(int n, const CellShares& share) {
     for (int axis = 0; axis < 3; ++axis) {
